@@ -1,0 +1,6 @@
+//! Python bindings of `discjump-core`.
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {}
