@@ -23,6 +23,8 @@ const RIDGE_ABOVE_RIM: f64 = 11.0;
 const RIDGE_ABOVE_SIGHT: f64 = 7.0;
 /// Slopes of the gorge's walls.
 const WALLS: [f64; 2] = [0.90, 0.58];
+/// Ground about an end of the bridge: level with the deck to here, natural from there, metres.
+const ABUTMENT: [f64; 2] = [6.0, 26.0];
 /// Half the width of the gorge's floor, metres.
 const FLOOR: f64 = 14.0;
 
@@ -59,8 +61,7 @@ fn around(grid: &mut Grid, centre: [f64; 2], radius: f64, mut f: impl FnMut([f64
     let heights = grid.heights_mut();
     for y in first[1]..=last[1] {
         for x in first[0]..=last[0] {
-            let offset =
-                [ORIGIN + SQUARE * x as f64 - centre[0], ORIGIN + SQUARE * y as f64 - centre[1]];
+            let offset = [ORIGIN + SQUARE * x as f64 - centre[0], ORIGIN + SQUARE * y as f64 - centre[1]];
             if offset[0] * offset[0] + offset[1] * offset[1] <= radius * radius {
                 f(offset, &mut heights[index(x as usize, y as usize)]);
             }
@@ -129,8 +130,12 @@ fn gorge(grid: &mut Grid, site: &Site, rim: f64, draws: Draws) {
         let from_axis = u - bend(v);
         let wall = walls[usize::from(from_axis > 0.0)];
         let wanted = (floor + wall * (from_axis.abs() - FLOOR).max(0.0)).min(rim);
-        let cut = (*height - wanted).max(0.0) * (1.0 - smooth(64.0, 84.0, u.abs())) * (1.0 - smooth(96.0, 150.0, v.abs()));
-        let fill = (wanted - *height).max(0.0) * (1.0 - smooth(64.0, 92.0, u.abs())) * (1.0 - smooth(24.0, 60.0, v.abs()));
+        let cut = (*height - wanted).max(0.0)
+            * (1.0 - smooth(64.0, 84.0, u.abs()))
+            * (1.0 - smooth(96.0, 150.0, v.abs()));
+        let fill = (wanted - *height).max(0.0)
+            * (1.0 - smooth(64.0, 92.0, u.abs()))
+            * (1.0 - smooth(24.0, 60.0, v.abs()));
         *height += fill - cut;
     });
 }
@@ -138,8 +143,8 @@ fn gorge(grid: &mut Grid, site: &Site, rim: f64, draws: Draws) {
 /// Levels the ground at the ends of the bridge with its deck.
 fn abutments(grid: &mut Grid, site: &Site, rim: f64) {
     for end in site.ends() {
-        around(grid, end, 32.0, |offset, height| {
-            *height += (1.0 - smooth(12.0, 32.0, length(offset))) * (rim - *height);
+        around(grid, end, ABUTMENT[1], |offset, height| {
+            *height += (1.0 - smooth(ABUTMENT[0], ABUTMENT[1], length(offset))) * (rim - *height);
         });
     }
 }

@@ -60,8 +60,11 @@ struct Crossing {
 
 /// The best sites, best first: at most one per crossing.
 pub(super) fn search(grid: &Grid, draws: Draws, repeating: bool) -> Vec<Site> {
-    let mut sites: Vec<Site> =
-        crossings(grid, repeating).iter().zip(0..).map(|(crossing, k)| flag_line(grid, draws, crossing, k)).collect();
+    let mut sites: Vec<Site> = crossings(grid, repeating)
+        .iter()
+        .zip(0..)
+        .map(|(crossing, k)| flag_line(grid, draws, crossing, k))
+        .collect();
     sites.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     sites
 }
@@ -95,8 +98,8 @@ fn crossings(grid: &Grid, repeating: bool) -> Vec<Crossing> {
                 let rises = ends.map(|end| (end - centre - RISE).abs());
                 let open = sides.map(|side| (side - centre - 4.0).max(0.0));
                 let rim = (0.5 * (ends[0] + ends[1]) - RIM).abs();
-                let cost =
-                    rises[0] + rises[1] + (ends[0] - ends[1]).abs() + 0.5 * (open[0] + open[1]) + 0.5 * rim;
+                let rim = rim + 2.0 * (rim - 6.0).max(0.0);
+                let cost = rises[0] + rises[1] + (ends[0] - ends[1]).abs() + 0.5 * (open[0] + open[1]) + rim;
                 Crossing { x, y, direction, cost }
             };
             let best = turns.iter().map(cost).reduce(|a, b| if b.cost < a.cost { b } else { a });
@@ -166,8 +169,11 @@ struct Stand {
 /// How well a flag would stand somewhere: on level and even ground, in a hollow.
 fn stand(grid: &Grid, flag: [f64; 2]) -> Stand {
     let (x, y) = (squares(flag[0] - ORIGIN), squares(flag[1] - ORIGIN));
-    let heights = PAD.map(|(dx, dy)| grid.at(x.wrapping_add_signed(dx as isize), y.wrapping_add_signed(dy as isize)));
+    let heights =
+        PAD.map(|(dx, dy)| grid.at(x.wrapping_add_signed(dx as isize), y.wrapping_add_signed(dy as isize)));
     let pad = plane(heights);
-    let cost = 3.0 * (pad.residual - 1.5).max(0.0) + 60.0 * (pad.slope - 0.15).max(0.0) + 0.3 * (pad.mean - 26.0).max(0.0);
+    let cost = 3.0 * (pad.residual - 1.5).max(0.0)
+        + 60.0 * (pad.slope - 0.15).max(0.0)
+        + 0.3 * (pad.mean - 26.0).max(0.0);
     Stand { height: pad.mean, cost }
 }

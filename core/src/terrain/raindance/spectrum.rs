@@ -64,9 +64,8 @@ pub(super) fn base(draws: Draws, repeating: bool) -> Base {
     for (mode, counter) in modes.iter().zip(0..) {
         let bits = draws.bits(MODES + counter);
         let jitter = libm::exp(JITTER * nearly_normal(bits));
-        let scaled = |amplitude: f64, (cos, sin): (f64, f64)| {
-            (amplitude * jitter * cos, amplitude * jitter * sin)
-        };
+        let scaled =
+            |amplitude: f64, (cos, sin): (f64, f64)| (amplitude * jitter * cos, amplitude * jitter * sin);
         let hills = scaled(mode.amplitude.hills, phase(bits));
         let detail = scaled(mode.amplitude.detail, phase(bits >> 12));
         let (sum_re, sum_im) = (hills.0 + detail.0, hills.1 + detail.1);
@@ -112,7 +111,11 @@ fn unit_variance(mut field: Vec<f64>) -> Vec<f64> {
 fn modes(repeating: bool) -> &'static [Mode] {
     static CELL: OnceLock<Vec<Mode>> = OnceLock::new();
     static TILE: OnceLock<Vec<Mode>> = OnceLock::new();
-    if repeating { CELL.get_or_init(|| list_modes(SIDE / 4, 1.0)) } else { TILE.get_or_init(|| list_modes(SIDE, 0.25)) }
+    if repeating {
+        CELL.get_or_init(|| list_modes(SIDE / 4, 1.0))
+    } else {
+        TILE.get_or_init(|| list_modes(SIDE, 0.25))
+    }
 }
 
 fn list_modes(side: usize, step: f64) -> Vec<Mode> {
@@ -139,7 +142,13 @@ fn list_modes(side: usize, step: f64) -> Vec<Mode> {
 
 fn amplitude(n: f64) -> Amplitude {
     let power = |x: f64, exponent: usize| (0..exponent).fold(1.0, |power, _| power * x);
-    let damping = if n < LOWEST { 0.0 } else if n < DAMPED_BELOW { DAMPED } else { 1.0 };
+    let damping = if n < LOWEST {
+        0.0
+    } else if n < DAMPED_BELOW {
+        DAMPED
+    } else {
+        1.0
+    };
     let detail = libm::pow(n, DETAIL_EXPONENT) / (1.0 + power(DETAIL_FROM / n, 6));
     Amplitude {
         hills: damping / (1.0 + power(n / HILLS_CUT, 10)).sqrt(),

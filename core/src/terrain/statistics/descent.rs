@@ -22,7 +22,11 @@ pub(super) fn measure(grid: &Grid, values: &mut Values) {
             let mut at = index(x, y);
             while steps[at] != PIT {
                 let (dx, dy) = NEIGHBOURS[usize::from(steps[at])];
-                if dx == 0 || dy == 0 { straight += 1 } else { diagonal += 1 }
+                if dx == 0 || dy == 0 {
+                    straight += 1
+                } else {
+                    diagonal += 1
+                }
                 at = index(at % SIDE + dx, at / SIDE + dy);
             }
         }

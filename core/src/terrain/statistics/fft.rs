@@ -76,7 +76,8 @@ impl Lines {
         let sign = if direction == Direction::Forward { -1.0 } else { 1.0 };
         let mut half = 1;
         while half < side {
-            let pairs = self.re[..side].chunks_exact_mut(2 * half).zip(self.im[..side].chunks_exact_mut(2 * half));
+            let pairs =
+                self.re[..side].chunks_exact_mut(2 * half).zip(self.im[..side].chunks_exact_mut(2 * half));
             for (re, im) in pairs {
                 let ((re, re_far), (im, im_far)) = (re.split_at_mut(half), im.split_at_mut(half));
                 let near = re.iter_mut().zip(im);

@@ -38,7 +38,10 @@ impl fmt::Display for Error {
                 "heights: expected 256 x 256 = 65536 or 257 x 257 = 66049 values (rows of y, columns of x), got {found}"
             ),
             Self::NotFinite { row, column } => {
-                write!(f, "heights: expected finite metres, got a value that is not finite at row {row}, column {column}")
+                write!(
+                    f,
+                    "heights: expected finite metres, got a value that is not finite at row {row}, column {column}"
+                )
             }
         }
     }

@@ -134,9 +134,8 @@ const fn pad_lattice() -> [(i32, i32); 29] {
 
 /// The least-squares plane of the ground around a flag.
 pub(crate) fn pad(grid: &Grid, flag: [f64; 2]) -> Pad {
-    let sample = |x: i32, y: i32| {
-        grid.ground([flag[0] + SQUARE * f64::from(x), flag[1] + SQUARE * f64::from(y)])
-    };
+    let sample =
+        |x: i32, y: i32| grid.ground([flag[0] + SQUARE * f64::from(x), flag[1] + SQUARE * f64::from(y)]);
     plane(PAD.map(|(x, y)| sample(x, y)))
 }
 
