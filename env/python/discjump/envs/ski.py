@@ -88,8 +88,9 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
         Returns:
             Observation (size,) float32, and info (see `discjump.envs.infos`).
         """
-        observations = self._task.reset(seeds_of(seed, 1), options=options)
-        super().reset(seed=seed)
+        seeds = seeds_of(seed, 1)
+        observations = self._task.reset(seeds, options=options)
+        super().reset(seed=seeds[0])
         return observations[0], infos.row(infos.now(self._task.batch.status()))
 
     def step(self, action: object) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
