@@ -25,6 +25,11 @@ unexport VIRTUAL_ENV PYTHONHOME PYTHONPATH CONDA_PREFIX
 # Directories are listed beside the files, so that a deleted file counts as a change.
 NATIVE_SOURCES := $(shell find core/src env/src) Cargo.toml Cargo.lock core/Cargo.toml env/Cargo.toml pyproject.toml
 
+# A stamp without what it stands for (the extension was deleted by hand, say) is no stamp.
+ifeq ($(wildcard env/python/discjump/_native*.so),)
+$(shell rm -f .stamps/env .stamps/env-fast)
+endif
+
 .PHONY: help
 help: ## This list
 	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sort \
