@@ -134,7 +134,7 @@ stubtest: setup
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile
-	cargo bench --workspace --locked
+	cargo bench --locked -p discjump-core
 
 clean: ## Remove the virtual environment, the stamps and every build product; runs/ stays
 	rm -rf .venv .stamps .mypy_cache .pytest_cache .ruff_cache .hypothesis dist
