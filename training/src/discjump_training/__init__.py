@@ -1,0 +1,1 @@
+"""Training, baselines and judgement of agents for discjump."""
