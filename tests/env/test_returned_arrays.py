@@ -1,8 +1,8 @@
 """Returned arrays.
 
-Contract: nothing that a user stored ever changes. The simulator uses a buffer again only when nobody holds a view of
-it; were it to do so earlier, algorithms that store the last observation after the next step would learn from
-observations shifted by one, silently.
+Contract: nothing that a user stored ever changes. The simulator uses a buffer again only when nobody holds a
+view of it; were it to do so earlier, algorithms that store the last observation after the next step would
+learn from observations shifted by one, silently.
 """
 
 import numpy as np
@@ -40,7 +40,9 @@ class Album:
             assert array.tobytes() == copy.tobytes()
 
 
-@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP], ids=lambda mode: mode.value)
+@pytest.mark.parametrize(
+    "mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP], ids=lambda mode: mode.value
+)
 @pytest.mark.parametrize("num_envs", [3, 300])
 def test_vector(mode, num_envs):
     envs, album = SkiVectorEnv(num_envs, autoreset_mode=mode, **SHORT), Album()

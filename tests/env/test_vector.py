@@ -1,9 +1,9 @@
 """The vector environment.
 
-Contract: bit for bit what gymnasium's `SyncVectorEnv` makes of as many single environments with the same seeds, in
-all three autoreset modes, observations, rewards, flags and every column and mask of info; and an environment's bits
-depend on its seed alone, not on its index, its neighbours or the number of threads. Training, evaluation and replays
-in different batch shapes rely on it.
+Contract: bit for bit what gymnasium's `SyncVectorEnv` makes of as many single environments with the same
+seeds, in all three autoreset modes, observations, rewards, flags and every column and mask of info; and an
+environment's bits depend on its seed alone, not on its index, its neighbours or the number of threads.
+Training, evaluation and replays in different batch shapes rely on it.
 """
 
 import warnings
@@ -83,7 +83,7 @@ def test_made_by_gymnasium_without_a_warning():
     assert isinstance(envs, SkiVectorEnv)
     assert envs.num_envs == 3
     assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
-    assert envs.observation_space.shape == (3, *envs.single_observation_space.shape)
+    assert envs.observation_space.shape == (3, envs.observation_layout[-1].slice.stop)
     assert envs.action_space.shape == (3, 5)
     observations, _ = envs.reset(seed=0)
     assert observations in envs.observation_space
@@ -113,7 +113,9 @@ def roll(envs, seeds, actions):
     return rows
 
 
-@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP], ids=lambda mode: mode.value)
+@pytest.mark.parametrize(
+    "mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP], ids=lambda mode: mode.value
+)
 def test_bits_depend_on_the_seed_alone(mode):
     seeds = np.random.default_rng(0).permutation(70).tolist()
     actions = random_actions(4, 90, 70)
@@ -156,7 +158,7 @@ def test_each_environment_can_have_its_own_place():
     envs = SkiVectorEnv(3, terrain_seeds=[0, 1])
     starts = np.array([[0.0, 0.0], [np.nan, np.nan], [50.0, 0.0]])
     _, info = envs.reset(
-        seed=0, options={"start": starts, "goal": starts + [[0, 300]], "terrain_seed": [1, 0, 1]}
+        seed=0, options={"start": starts, "goal": starts + np.array([0, 300]), "terrain_seed": [1, 0, 1]}
     )
     np.testing.assert_allclose(info["distance"][[0, 2]], 300, atol=1e-3)
     assert 300 <= info["distance"][1] <= 800
@@ -180,7 +182,9 @@ def test_statistics_wrapper_agrees_with_info():
             ended = info["_episode"]
             np.testing.assert_array_equal(ended, info["_return"])
             np.testing.assert_array_equal(info["episode"]["l"][ended], info["length"][ended])
-            np.testing.assert_allclose(info["episode"]["r"][ended], info["return"][ended], rtol=1e-5, atol=1e-5)
+            np.testing.assert_allclose(
+                info["episode"]["r"][ended], info["return"][ended], rtol=1e-5, atol=1e-5
+            )
             ends += ended.sum()
     assert ends > 8
 

@@ -1,6 +1,6 @@
 """The command `discjump`.
 
-Other packages add subcommands through the entry-point group `discjump.commands`, where an entry names a command.
+Other packages add subcommands through the entry-point group `discjump.commands`: each names a click command.
 """
 
 from importlib.metadata import EntryPoint, entry_points

@@ -11,7 +11,7 @@ from discjump import _check
 from discjump._native import SkiBatch, Terrain
 from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
 
-REWARD = {"progress": 0.02, "time": -0.156, "arrival": 5.0}
+REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
 """Default weights: per metre nearer to the beacon, per second, once on arrival."""
 
 ACTIONS = ("multi_discrete", "box")
