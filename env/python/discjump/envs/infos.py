@@ -32,7 +32,7 @@ END = {
     "is_success": "success",
     "death": "death",
     "timeout": "timeout",
-    "return": "ret",
+    "return": "total_reward",
     "length": "length",
     "top_speed": "top_speed",
     "mean_speed": "mean_speed",

@@ -9,10 +9,17 @@ from numpy.typing import NDArray
 
 from discjump import _check
 from discjump._native import SkiBatch, Terrain
+from discjump.simulator import Physics
 from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
 
 REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
 """Default weights: per metre nearer to the beacon, per second, once on arrival."""
+
+FAN_BEARINGS = (0.0, 15.0, -15.0, 34.0, -34.0, 60.0, -60.0, 97.0, -97.0)
+"""Default bearings of the fan of terrain heights, degrees, 0 ahead, positive left."""
+
+FAN_RANGES = (6.0, 16.0, 35.0, 70.0, 120.0)
+"""Default ranges of the fan of terrain heights, m."""
 
 ACTIONS = ("multi_discrete", "box")
 
@@ -50,8 +57,8 @@ class SkiOptions:
     energy_pack: bool = False
     """The player wears an energy pack."""
 
-    physics: Mapping[str, Any] | None = None
-    """Readings of the movement model that differ from the default."""
+    physics: Physics = Physics()
+    """Switches of the movement model."""
 
     tick_ms: int = 32
     """Length of a tick, milliseconds."""
@@ -77,16 +84,16 @@ class SkiOptions:
     start_speed: float = 10.0
     """Largest speed at the start, m/s; 0: always at rest."""
 
-    reward: Mapping[str, float] = field(default_factory=dict)
+    reward: Mapping[str, float] = field(default_factory=lambda: REWARD)
     """Weights that differ from `REWARD`: `progress` (per m), `time` (per s), `arrival`."""
 
-    fan_bearings: Sequence[float] | NDArray[np.float64] | None = None
+    fan_bearings: Sequence[float] | NDArray[np.float64] = FAN_BEARINGS
     """Bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan; None: the
     default fan.
     """
 
-    fan_ranges: Sequence[float] | NDArray[np.float64] | None = None
-    """Ranges of the fan of terrain heights, m; empty: no fan; None: the default fan."""
+    fan_ranges: Sequence[float] | NDArray[np.float64] = FAN_RANGES
+    """Ranges of the fan of terrain heights, m; empty: no fan."""
 
     landing: bool = True
     """Observe features of the ballistic landing."""
@@ -98,7 +105,8 @@ class SkiOptions:
         put(self, "repeating", _check.flag("repeating", self.repeating))
         put(self, "terrains", _terrains(self.terrains))
         put(self, "energy_pack", _check.flag("energy_pack", self.energy_pack))
-        put(self, "physics", _mapping("physics", self.physics))
+        if not isinstance(self.physics, Physics):
+            raise TypeError(f"physics: expected a discjump.Physics, got {self.physics!r}")
         put(self, "frame_skip", _check.integer("frame_skip", self.frame_skip, 1, 64))
         put(self, "tick_ms", _check.integer("tick_ms", self.tick_ms, 1, 1000))
         _check.choice("actions", self.actions, ACTIONS)
@@ -156,7 +164,7 @@ class SkiOptions:
             fidelity=self.fidelity,
             armor=self.armor,
             energy_pack=self.energy_pack,
-            physics=None if self.physics is None else dict(self.physics),
+            physics=(self.physics.ski_bug, self.physics.hysteresis),
             tick_ms=self.tick_ms,
             frame_skip=self.frame_skip,
             actions=self.actions,
@@ -165,28 +173,21 @@ class SkiOptions:
             arrival_radius=self.arrival_radius,
             goal_distance=self.goal_distance,
             start_speed=self.start_speed,
-            reward=dict(self.reward),
-            fan_bearings=None if self.fan_bearings is None else np.array(self.fan_bearings, dtype=np.float64),
-            fan_ranges=None if self.fan_ranges is None else np.array(self.fan_ranges, dtype=np.float64),
+            reward=(self.reward["progress"], self.reward["time"], self.reward["arrival"]),
+            fan_bearings=self.fan_bearings,
+            fan_ranges=self.fan_ranges,
             landing=self.landing,
             autoreset=autoreset,
             threads=threads,
         )
 
 
-def _mapping(name: str, value: object) -> dict[str, Any] | None:
-    if value is None:
-        return None
-    if not isinstance(value, Mapping):
-        raise TypeError(f"{name}: expected a mapping, got {value!r} of type {type(value).__name__}")
-    return dict(value)
-
-
 def _reward(weights: object) -> dict[str, float]:
-    given = _mapping("reward", weights) or {}
-    _check.known("reward", given, REWARD)
+    if not isinstance(weights, Mapping):
+        raise TypeError(f"reward: expected a mapping of weights, got {weights!r} of type {type(weights).__name__}")
+    _check.known("reward", weights, REWARD)
     checked = {
-        name: _check.real(f"reward[{name!r}]", weight, -1e6, 1e6, "") for name, weight in given.items()
+        name: _check.real(f"reward[{name!r}]", weight, -1e6, 1e6, "") for name, weight in weights.items()
     }
     return REWARD | checked
 
@@ -215,8 +216,6 @@ def _goal_distance(span: object) -> tuple[float, float]:
     return low, high
 
 
-def _fan(name: str, values: object, low: float, high: float, unit: str) -> tuple[float, ...] | None:
-    if values is None:
-        return None
+def _fan(name: str, values: object, low: float, high: float, unit: str) -> tuple[float, ...]:
     numbers = _check.sequence(name, values, f"numbers in {unit}")
     return tuple(_check.real(f"{name}[{i}]", value, low, high, unit) for i, value in enumerate(numbers))
