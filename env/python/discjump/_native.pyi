@@ -1,9 +1,12 @@
 # Written by hand (generated stubs lose numpy's types) and checked against the binary by mypy.stubtest.
-from os import PathLike
+
+from collections.abc import Sequence
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Simulator", "SkiBatch", "Terrain"]
 
 @final
 class Terrain:
@@ -11,20 +14,10 @@ class Terrain:
     def raindance(seed: int = 0, *, repeating: bool = False) -> Terrain: ...
     @staticmethod
     def from_heights(
-        heights: NDArray[Any],
+        heights: ArrayLike,
         square_size: float = 8.0,
         origin: tuple[float, float] = (0.0, 0.0),
         edge: str = "tile",
-    ) -> Terrain: ...
-    @staticmethod
-    def load(
-        path: str | PathLike[str],
-        *,
-        square_size: float = 8.0,
-        origin: tuple[float, float] = (0.0, 0.0),
-        edge: str = "tile",
-        height_scale: float = ...,
-        height_offset: float = ...,
     ) -> Terrain: ...
     @property
     def heights(self) -> NDArray[np.float64]: ...
@@ -33,47 +26,76 @@ class Terrain:
     @property
     def origin(self) -> tuple[float, float]: ...
     @property
+    def size(self) -> tuple[float, float]: ...
+    @property
     def edge(self) -> str: ...
     @property
     def seed(self) -> int | None: ...
     @property
-    def size(self) -> tuple[float, float]: ...
-    def height(self, xy: NDArray[Any]) -> NDArray[np.float64]: ...
-    def normal(self, xy: NDArray[Any]) -> NDArray[np.float64]: ...
+    def play_area(self) -> tuple[tuple[float, float], tuple[float, float]]: ...
     @property
     def mission(self) -> dict[str, Any] | None: ...
+    def height(self, xy: ArrayLike) -> NDArray[np.float64]: ...
+    def normal(self, xy: ArrayLike) -> NDArray[np.float64]: ...
     def statistics(self) -> dict[str, float]: ...
     def acceptance(self) -> list[tuple[str, str, float, float, float, bool]]: ...
+    def is_raindance_like(self) -> bool: ...
     def digest(self) -> str: ...
 
 @final
-class Simulator: ...
+class Simulator:
+    def __new__(
+        cls,
+        terrain: Terrain,
+        num_players: int,
+        scene: str,
+        armor: str,
+        energy_pack: bool,
+        fidelity: str,
+        physics: tuple[bool, bool] | None,
+        tick_ms: int,
+        threads: int | None,
+    ) -> Simulator: ...
+    @property
+    def num_players(self) -> int: ...
+    @property
+    def models(self) -> list[str]: ...
+    @property
+    def player_bytes(self) -> int: ...
+    @property
+    def state_dtype(self) -> np.dtype[np.void]: ...
+    def state(self) -> NDArray[np.void]: ...
+    def set_state(self, indices: Sequence[int], states: bytes) -> None: ...
+    def step(self, inputs: bytes, ticks: int) -> None: ...
+    def snapshot(self) -> bytes: ...
+    def restore(self, snapshot: bytes) -> None: ...
+    def digest(self) -> str: ...
 
 @final
 class SkiBatch:
     def __new__(
         cls,
-        terrains: list[Terrain],
+        terrains: Sequence[Terrain],
         num_envs: int,
         *,
-        fidelity: str = "authentic",
-        armor: str = "light",
-        energy_pack: bool = False,
-        physics: dict[str, Any] | None = None,
-        tick_ms: int = 32,
-        frame_skip: int = 4,
-        actions: str = "multi_discrete",
-        turn_rate: float = 2.34375,
-        time_limit: float = 60.0,
-        arrival_radius: float = 8.0,
-        goal_distance: tuple[float, float] = (300.0, 800.0),
-        start_speed: float = 10.0,
-        reward: dict[str, float] | None = None,
-        fan_bearings: NDArray[np.float64] | None = None,
-        fan_ranges: NDArray[np.float64] | None = None,
-        landing: bool = True,
-        autoreset: str = "next_step",
-        threads: int | None = None,
+        fidelity: str,
+        armor: str,
+        energy_pack: bool,
+        physics: tuple[bool, bool] | None,
+        tick_ms: int,
+        frame_skip: int,
+        actions: str,
+        turn_rate: float,
+        time_limit: float,
+        arrival_radius: float,
+        goal_distance: tuple[float, float],
+        start_speed: float,
+        reward: tuple[float, float, float],
+        fan_bearings: Sequence[float],
+        fan_ranges: Sequence[float],
+        landing: bool,
+        autoreset: str,
+        threads: int | None,
     ) -> SkiBatch: ...
     @property
     def num_envs(self) -> int: ...
@@ -82,19 +104,21 @@ class SkiBatch:
     @property
     def observation_clip(self) -> float: ...
     @property
-    def layout(self) -> list[tuple[str, int, int, str, float]]: ...
+    def action_size(self) -> int: ...
     @property
     def action_bins(self) -> list[int]: ...
     @property
-    def action_size(self) -> int: ...
+    def layout(self) -> list[tuple[str, int, int, str, float]]: ...
+    @property
+    def bytes_per_env(self) -> int: ...
     def reset(
         self,
-        seeds: NDArray[np.uint64] | None = None,
-        mask: NDArray[np.bool_] | None = None,
+        seeds: Sequence[int] | NDArray[np.uint64] | None = None,
+        mask: Sequence[bool] | NDArray[np.bool_] | None = None,
         *,
-        start: NDArray[np.float64] | None = None,
-        goal: NDArray[np.float64] | None = None,
-        terrain: NDArray[np.int64] | None = None,
+        start: ArrayLike | None = None,
+        goal: ArrayLike | None = None,
+        terrain: Sequence[int] | NDArray[np.int64] | None = None,
     ) -> NDArray[np.float32]: ...
     def step(
         self, actions: NDArray[Any]
