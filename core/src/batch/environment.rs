@@ -13,9 +13,10 @@ use crate::player::{Field, Player, fields, local};
 use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::rules::{Physics, Rules};
 use crate::scene::{Group, Scene, Ski};
-use crate::task::{ActionKind, Actions, Area, CourseRequest, Outcome, Run, SkiTask, draw_course};
+use crate::task::{ActionKind, Actions, CourseRequest, Outcome, Run, SkiTask, draw_course};
 use crate::terrain::Maps;
-use glam::{DVec3, IVec2};
+use crate::terrain::mission::Area;
+use glam::{DVec2, DVec3, IVec2};
 use rayon::prelude::*;
 
 mod episode;
@@ -225,10 +226,11 @@ impl SkiEnvironments {
         if self.areas.len() != self.maps.count() {
             refuse!("areas: expected {}, one per terrain, got {}", self.maps.count(), self.areas.len());
         }
-        if let Some(area) = self.areas.iter().find(|a| a.diagonal() < near) {
+        let diagonal = |a: &Area| (DVec2::from(a.max) - DVec2::from(a.min)).length();
+        if let Some(area) = self.areas.iter().find(|a| diagonal(a) < near) {
             refuse!(
                 "goal_distance: expected at most {:.1} m, the diagonal of the smallest terrain's area, got {near}",
-                area.diagonal()
+                diagonal(area)
             );
         }
         Ok(())
@@ -376,7 +378,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
                     distance: run.distance(&p, &surface).to_f64(),
                     speed: p.velocity.length().to_f64(),
                     time: run.seconds(self.rules.tick_ms),
-                    outside: !self.setup.areas[map].contains(self.place(&p).truncate()),
+                    outside: !self.setup.areas[map].contains(self.place(&p).truncate().into()),
                     terrain: map,
                 }
             })

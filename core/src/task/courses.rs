@@ -2,30 +2,8 @@
 
 use crate::error::{InputError, refuse};
 use crate::random::{Purpose, index, uniform};
+use crate::terrain::mission::Area;
 use glam::DVec2;
-
-/// A rectangle on the map, world coordinates, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area {
-    /// South-west corner.
-    pub min: DVec2,
-    /// North-east corner.
-    pub max: DVec2,
-}
-
-impl Area {
-    /// Whether a point lies in it, rim included.
-    #[must_use]
-    pub fn contains(&self, point: DVec2) -> bool {
-        point.cmpge(self.min).all() && point.cmple(self.max).all()
-    }
-
-    /// Length of its diagonal, m.
-    #[must_use]
-    pub fn diagonal(&self) -> f64 {
-        (self.max - self.min).length()
-    }
-}
 
 /// What a user may fix of an episode; the rest is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -107,11 +85,12 @@ fn draw_ends(
     if let (Some(start), Some(goal)) = (request.start, request.goal) {
         return (start, goal);
     }
+    let (low, high) = (DVec2::from(area.min), DVec2::from(area.max));
     let mut metres = distance.0;
     for k in 0..TRIES {
         let place = DVec2::new(
-            draw(Purpose::Start, 2 * k, area.min.x, area.max.x),
-            draw(Purpose::Start, 2 * k + 1, area.min.y, area.max.y),
+            draw(Purpose::Start, 2 * k, low.x, high.x),
+            draw(Purpose::Start, 2 * k + 1, low.y, high.y),
         );
         let bearing = draw(Purpose::Goal, 2 * k, -pi, pi);
         metres = draw(Purpose::Goal, 2 * k + 1, distance.0, distance.1);
@@ -121,23 +100,22 @@ fn draw_ends(
             (None, Some(goal)) => (goal - leg, goal),
             (None, None) => (place, place + leg),
         };
-        if area.contains(start) && area.contains(goal) {
+        if area.contains(start.into()) && area.contains(goal.into()) {
             return (start, goal);
         }
     }
     // From the fixed end, or from a corner, towards what is farthest within the area.
-    let span = area.max - area.min;
     let corner = |from: DVec2| {
-        let middle = area.min + span * 0.5;
+        let middle = (low + high) * 0.5;
         DVec2::new(
-            if from.x < middle.x { area.max.x } else { area.min.x },
-            if from.y < middle.y { area.max.y } else { area.min.y },
+            if from.x < middle.x { high.x } else { low.x },
+            if from.y < middle.y { high.y } else { low.y },
         )
     };
     let along = |from: DVec2| from + (corner(from) - from).normalize_or(DVec2::X) * metres;
     match (request.start, request.goal) {
         (Some(start), _) => (start, along(start)),
         (None, Some(goal)) => (along(goal), goal),
-        (None, None) => (area.min, along(area.min)),
+        (None, None) => (low, along(low)),
     }
 }

@@ -5,5 +5,5 @@ mod courses;
 mod run;
 
 pub use action::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions};
-pub use courses::{Area, Course, CourseRequest, draw_course};
+pub use courses::{Course, CourseRequest, draw_course};
 pub use run::{Outcome, Reward, Run, SkiTask, Verdict};

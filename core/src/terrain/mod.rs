@@ -6,6 +6,9 @@
 
 mod heightfield;
 mod maps;
+pub mod mission;
+pub mod raindance;
+pub mod statistics;
 mod surface;
 mod sweep;
 

@@ -128,7 +128,8 @@ impl World {
     }
 }
 
-pub const JUMP: RawInput = RawInput { forward: 0, strafe: 0, jump: 1, jet: 0, fire: 0, turn: 0.0, pitch: 0.0 };
+pub const JUMP: RawInput =
+    RawInput { forward: 0, strafe: 0, jump: 1, jet: 0, fire: 0, turn: 0.0, pitch: 0.0 };
 pub const JET: RawInput = RawInput { jump: 0, jet: 1, ..JUMP };
 pub const IDLE: RawInput = RawInput { jump: 0, ..JUMP };
 pub const FORWARD: RawInput = RawInput { forward: 1, ..IDLE };
