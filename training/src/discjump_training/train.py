@@ -42,7 +42,7 @@ from tqdm import tqdm
 
 from discjump_training import episodes, model
 from discjump_training.courses import COURSES, run_seed
-from discjump_training.errors import TrainingError
+from discjump_training.errors import RecipeError, TrainingError
 from discjump_training.recipe import Recipe
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
@@ -145,7 +145,7 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
     """
     checkpoint = newest_checkpoint(folder) if resume else None
     if checkpoint is None:
-        prepare_folder(folder)
+        check_is_free(folder)
         progress = Progress(seed)
     else:
         progress = Progress.from_dict(model.about(checkpoint)["progress"])
@@ -157,6 +157,7 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
 
     env = TimedVecEnv(make_env(recipe, progress.seed))
     try:
+        (folder / "checkpoints").mkdir(parents=True, exist_ok=True)
         learner = (
             make_model(recipe, env, progress.seed)
             if checkpoint is None
@@ -179,16 +180,23 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
 
 
 def make_env(recipe: Recipe, seed: int) -> discjump.sb3.SkiVecEnv:
-    """The training environments of the run `seed`."""
+    """The training environments of the run `seed`.
+
+    Raises:
+        RecipeError: if they cannot be made as the recipe says.
+    """
     course = COURSES[recipe.environment.course]
-    return discjump.sb3.make_vec_env(
-        "discjump/Ski-v0",
-        n_envs=recipe.rollout.num_envs,
-        seed=run_seed(seed),
-        threads=recipe.rollout.threads,
-        terrain_seeds=list(course.terrain_seeds),
-        **recipe.environment.kwargs(),
-    )
+    try:
+        return discjump.sb3.make_vec_env(
+            "discjump/Ski-v0",
+            n_envs=recipe.rollout.num_envs,
+            seed=run_seed(seed),
+            threads=recipe.rollout.threads,
+            terrain_seeds=list(course.terrain_seeds),
+            **recipe.environment.kwargs(),
+        )
+    except (TypeError, ValueError) as error:
+        raise RecipeError(f"the environment does not accept the recipe: {error}") from error
 
 
 def make_model(recipe: Recipe, env: TimedVecEnv, seed: int) -> PPO:
@@ -377,8 +385,8 @@ def stopping_gently(watch: Watcher) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def prepare_folder(folder: Path) -> None:
-    """Make an empty folder for a run.
+def check_is_free(folder: Path) -> None:
+    """Refuse a folder that is not empty.
 
     Raises:
         TrainingError: if it holds something already.
@@ -386,7 +394,6 @@ def prepare_folder(folder: Path) -> None:
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         hint = f"go on with --resume {folder}, or " if checkpoints(folder) else ""
         raise TrainingError(f"{folder} exists and is not an empty folder: {hint}choose another --out")
-    (folder / "checkpoints").mkdir(parents=True, exist_ok=True)
 
 
 def checkpoints(folder: Path) -> list[Path]:
