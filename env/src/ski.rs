@@ -268,9 +268,12 @@ impl SkiBatch {
             bytes.extend(o.time.to_le_bytes());
             bytes.extend(o.total_reward.to_le_bytes());
             bytes.extend(o.length.to_le_bytes());
-            for x in [o.top_speed, o.mean_speed, o.path, o.damage, o.distance, o.start_distance] {
+            for x in
+                [o.top_speed, o.mean_speed, o.path, o.damage, o.distance, o.start_distance, o.speed]
+            {
                 bytes.extend(x.to_le_bytes());
             }
+            bytes.push(u8::from(o.outside));
             bytes.extend(o.terrain.to_le_bytes());
             bytes.extend(o.seed.to_le_bytes());
             bytes.extend(o.episode.to_le_bytes());
@@ -364,7 +367,7 @@ impl SkiBatch {
 }
 
 /// The dtype of `outcomes()`.
-const OUTCOME: [(&str, &str, usize); 15] = [
+const OUTCOME: [(&str, &str, usize); 17] = [
     ("success", "?", 1),
     ("death", "?", 1),
     ("timeout", "?", 1),
@@ -377,6 +380,8 @@ const OUTCOME: [(&str, &str, usize); 15] = [
     ("damage", "<f8", 1),
     ("distance", "<f8", 1),
     ("start_distance", "<f8", 1),
+    ("speed", "<f8", 1),
+    ("outside", "?", 1),
     ("terrain", "<i8", 1),
     ("seed", "<u8", 1),
     ("episode", "<u8", 1),

@@ -293,6 +293,18 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.setup.maps.to_world(local(p), IVec2::new(p.tile_x, p.tile_y))
     }
 
+    fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode) -> Status {
+        let surface = self.setup.maps.surface::<R::Scalar>();
+        let map = episode.map as usize;
+        Status {
+            distance: run.distance(p, &surface).to_f64(),
+            speed: p.velocity.length().to_f64(),
+            time: run.seconds(self.rules.tick_ms),
+            outside: !self.setup.areas[map].contains(self.place(p).truncate().into()),
+            terrain: map,
+        }
+    }
+
     fn bytes(&self) -> Vec<u8> {
         let mut out = Vec::new();
         for (player, run, episode) in self.lanes() {
@@ -370,19 +382,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     }
 
     fn status(&self) -> Vec<Status> {
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        self.lanes()
-            .map(|(p, run, episode)| {
-                let map = episode.map as usize;
-                Status {
-                    distance: run.distance(&p, &surface).to_f64(),
-                    speed: p.velocity.length().to_f64(),
-                    time: run.seconds(self.rules.tick_ms),
-                    outside: !self.setup.areas[map].contains(self.place(&p).truncate().into()),
-                    terrain: map,
-                }
-            })
-            .collect()
+        self.lanes().map(|(p, run, episode)| self.status_of(&p, &run, episode)).collect()
     }
 
     fn goals(&self) -> Vec<[f64; 3]> {
