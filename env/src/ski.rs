@@ -241,12 +241,15 @@ impl SkiBatch {
             ActionKind::Box => "float32",
         };
         let got = py.import("numpy")?.call_method1("asarray", (actions,))?;
-        Err(PyTypeError::new_err(format!(
-            "actions: expected an array of {wanted}, shape ({}, {ACTION_SIZE}), got {} {}",
+        let (dtype, shape) = (got.getattr("dtype")?, got.getattr("shape")?);
+        let message = format!(
+            "actions: expected an array of {wanted}, shape ({}, {ACTION_SIZE}), got {dtype} {shape}",
             self.batch.len(),
-            got.getattr("dtype")?,
-            got.getattr("shape")?,
-        )))
+        );
+        if wanted.contains(&dtype.to_string()) && shape.len()? != 2 {
+            return Err(PyValueError::new_err(message));
+        }
+        Err(PyTypeError::new_err(message))
     }
 
     /// Indices of the environments whose episode ended in the last step, ascending, int64.
@@ -268,9 +271,7 @@ impl SkiBatch {
             bytes.extend(o.time.to_le_bytes());
             bytes.extend(o.total_reward.to_le_bytes());
             bytes.extend(o.length.to_le_bytes());
-            for x in
-                [o.top_speed, o.mean_speed, o.path, o.damage, o.distance, o.start_distance, o.speed]
-            {
+            for x in [o.top_speed, o.mean_speed, o.path, o.damage, o.distance, o.start_distance, o.speed] {
                 bytes.extend(x.to_le_bytes());
             }
             bytes.push(u8::from(o.outside));

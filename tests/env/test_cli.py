@@ -102,33 +102,26 @@ def test_bad_arguments(tmp_path, arguments):
     assert arguments[0] in result.output
 
 
-def rows(core=0, mission=0, supporting=0):
-    """As many rows outside their windows as asked for, beside one inside in each group."""
-    made = []
-    for group, count in (("core", core), ("mission", mission), ("supporting", supporting)):
-        made += [Row(f"{group}_{k}", group, 5.0, 0.0, 1.0, False) for k in range(count)]
-        made.append(Row(f"{group}_good", group, 0.5, 0.0, 1.0, True))
-    return made
-
-
-@pytest.mark.parametrize(
-    ("missing", "verdict"),
-    [
-        ({}, True),
-        ({"supporting": 2}, True),
-        ({"supporting": 3}, False),
-        ({"core": 1}, False),
-        ({"mission": 1}, False),
-    ],
-)
-def test_who_passes(missing, verdict):
-    assert terrain_command.accepted(rows(**missing)) is verdict
-    assert terrain_command.verdict(rows(**missing)).startswith("passes" if verdict else "FAILS")
-
-
 def test_table_marks_what_is_outside():
-    text = terrain_command.table(rows(core=1), {"extra": 1.5})
+    rows = [Row("steep", "core", 5.0, 0.0, 1.0, False), Row("flat", "supporting", 0.5, 0.0, 1.0, True)]
+    text = terrain_command.table(rows, {"extra": 1.5})
     marked = [line for line in text.splitlines() if "outside" in line]
     assert len(marked) == 1
-    assert marked[0].startswith("core_0")
+    assert marked[0].startswith("steep")
     assert "extra" in text
+    assert terrain_command.verdict(rows, False) == "FAILS: core 0 of 1 inside, supporting 1 of 1 inside"
+
+
+def test_a_terrain_that_misses_makes_the_command_fail(tmp_path, monkeypatch):
+    class Flat:
+        """Of the generator's interface, but level."""
+
+        raindance = staticmethod(lambda seed, repeating: discjump.Terrain.from_heights(np.zeros((257, 257))))
+
+    monkeypatch.setattr(terrain_command, "Terrain", Flat)
+    result = run("terrain", "--seed", 3, "--out", tmp_path, "--size", 64)
+    assert result.exit_code == 1
+    assert "FAILS" in result.output
+    result = run("terrain", "--check", 1, 2, "--out", tmp_path)
+    assert result.exit_code == 1
+    assert "0 of 2 terrains pass" in result.output

@@ -1,6 +1,10 @@
 """Generated terrains, made once per process and shared: they are immutable and cost about 20 ms each."""
 
+import copyreg
 from functools import lru_cache
+from typing import Any
+
+from numpy.typing import NDArray
 
 from discjump import _check
 from discjump._native import Terrain
@@ -50,3 +54,23 @@ def checked_seeds(seeds: object) -> tuple[int, ...]:
         twice = next(seed for i, seed in enumerate(checked) if seed in checked[:i])
         raise ValueError(f"terrain_seeds: expected different seeds, got {twice} more than once")
     return checked
+
+
+def _reduced(terrain: Terrain) -> tuple[Any, tuple[Any, ...]]:
+    """How to make a terrain again: copies and pickles of one have the same bits."""
+    if terrain.seed is None:
+        return _from_heights, (terrain.heights, terrain.square_size, terrain.origin, terrain.edge)
+    for repeating in (False, True):
+        if generated(terrain.seed, repeating).digest() == terrain.digest():
+            return generated, (terrain.seed, repeating)
+    raise ValueError(f"terrain: expected what its seed {terrain.seed} generates, got other bits")
+
+
+def _from_heights(
+    heights: NDArray[Any], square_size: float, origin: tuple[float, float], edge: str
+) -> Terrain:
+    return Terrain.from_heights(heights, square_size, origin, edge)
+
+
+# gymnasium copies the keyword arguments of an environment, and workers of other processes get them pickled.
+copyreg.pickle(Terrain, _reduced)

@@ -15,8 +15,9 @@ use super::triangles::Row;
 pub(super) fn measure(grid: &Grid, values: &mut Values) {
     let mut steepness = Vec::with_capacity(2 * SIDE * SIDE);
     let (mut along_x, mut along_y) = (0.0, 0.0);
+    let mut row = Row::ZERO;
     for y in 0..SIDE {
-        let row = Row::of(grid, y);
+        row.fill(grid, y);
         for triangles in [&row.west, &row.east] {
             steepness.extend((0..SIDE).map(|k| {
                 let (x, y) = (triangles.x[k], triangles.y[k]);

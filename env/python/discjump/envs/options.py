@@ -57,7 +57,7 @@ class SkiOptions:
     energy_pack: bool = False
     """The player wears an energy pack."""
 
-    physics: Physics = Physics()
+    physics: Physics = field(default_factory=Physics)
     """Switches of the movement model."""
 
     tick_ms: int = 32
@@ -88,8 +88,7 @@ class SkiOptions:
     """Weights that differ from `REWARD`: `progress` (per m), `time` (per s), `arrival`."""
 
     fan_bearings: Sequence[float] | NDArray[np.float64] = FAN_BEARINGS
-    """Bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan; None: the
-    default fan.
+    """Bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan.
     """
 
     fan_ranges: Sequence[float] | NDArray[np.float64] = FAN_RANGES
@@ -174,8 +173,8 @@ class SkiOptions:
             goal_distance=self.goal_distance,
             start_speed=self.start_speed,
             reward=(self.reward["progress"], self.reward["time"], self.reward["arrival"]),
-            fan_bearings=self.fan_bearings,
-            fan_ranges=self.fan_ranges,
+            fan_bearings=list(self.fan_bearings),
+            fan_ranges=list(self.fan_ranges),
             landing=self.landing,
             autoreset=autoreset,
             threads=threads,
@@ -184,7 +183,7 @@ class SkiOptions:
 
 def _reward(weights: object) -> dict[str, float]:
     if not isinstance(weights, Mapping):
-        raise TypeError(f"reward: expected a mapping of weights, got {weights!r} of type {type(weights).__name__}")
+        raise TypeError(f"reward: expected a mapping of weights, got {weights!r}")
     _check.known("reward", weights, REWARD)
     checked = {
         name: _check.real(f"reward[{name!r}]", weight, -1e6, 1e6, "") for name, weight in weights.items()
