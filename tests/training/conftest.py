@@ -1,6 +1,7 @@
 """What the tests of training share: a recipe small enough for seconds."""
 
 import pytest
+
 from discjump_training.recipe import Recipe
 
 TINY = (

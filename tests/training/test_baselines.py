@@ -2,6 +2,7 @@ from dataclasses import asdict
 
 import numpy as np
 import pytest
+
 from discjump_training import baselines
 from discjump_training.baselines.script import Script, SkierParameters, TackerParameters, bounds
 from discjump_training.baselines.sight import Sight
@@ -19,7 +20,8 @@ def stage():
 
 def layout_and_observation(**values: float | list[float]):
     """A layout in the order of the keywords, every scale 2, and one observation that reads as given."""
-    slices, numbers = {}, []
+    slices: dict[str, slice] = {}
+    numbers: list[float] = []
     for name, value in values.items():
         column = np.atleast_1d(value)
         slices[name] = slice(len(numbers), len(numbers) + column.size)
@@ -74,8 +76,14 @@ def test_episodes_are_the_same_every_time(name, stage):
 def test_scripts_read_by_name_whatever_the_order():
     names = list(reading()[0].slices)
     for order in (names, names[::-1]):
-        values = {"beacon_direction": [0.0, 1.0], "lateral_speed": 4.0, "energy": 33.0, "fan": [1, 2, 3, 4, 5]}
-        full = {name: values.get(name, 0.0) for name in order} | {"velocity": [0.0, 0.0, 7.0]}
+        values: dict[str, float | list[float]] = {
+            "velocity": [0.0, 0.0, 7.0],
+            "beacon_direction": [0.0, 1.0],
+            "lateral_speed": 4.0,
+            "energy": 33.0,
+            "fan": [1.0, 2.0, 3.0, 4.0, 5.0],
+        }
+        full = {name: values.get(name, 0.0) for name in order}
         layout, observation = layout_and_observation(**full)
         see = Sight.of(layout, observation, np.array(baselines.RANGES))
         assert see.bearing == pytest.approx([-np.pi / 2])  # to the right

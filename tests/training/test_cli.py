@@ -3,6 +3,7 @@ import tomllib
 
 import pytest
 from click.testing import CliRunner
+
 from discjump_training import cli, train
 from discjump_training.recipe import Recipe
 

@@ -2,6 +2,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+
 from discjump_training.courses import COURSES, MAX_RUN_SEED, SEED_SPACING, course, run_seed
 from discjump_training.errors import TrainingError
 from discjump_training.recipe import Recipe

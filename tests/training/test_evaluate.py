@@ -3,11 +3,12 @@ import json
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
+from pydantic import BaseModel, ConfigDict
+
 from discjump_training import baselines, cli, evaluate, train
 from discjump_training.courses import HELD_OUT
 from discjump_training.episodes import FAILURE_SECONDS, Stage
-from PIL import Image
-from pydantic import BaseModel, ConfigDict
 
 EPISODES = 12
 

@@ -2,11 +2,12 @@ import zipfile
 
 import numpy as np
 import pytest
+from stable_baselines3 import PPO
+
 from discjump_training import baselines, model, train
 from discjump_training.courses import VALIDATION
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
-from stable_baselines3 import PPO
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +51,7 @@ def test_a_crash_while_writing_leaves_the_old_file(tmp_path, monkeypatch):
     def crash(descriptor):
         raise OSError("no space left")
 
-    monkeypatch.setattr(model.os, "fsync", crash)
+    monkeypatch.setattr("os.fsync", crash)
     with pytest.raises(OSError, match="no space left"):
         model.write_atomically(path, b"new")
     assert path.read_bytes() == b"old"

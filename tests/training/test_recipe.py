@@ -1,6 +1,7 @@
 import tomllib
 
 import pytest
+
 from discjump_training import recipe
 from discjump_training.errors import RecipeError
 from discjump_training.recipe import Recipe, Section

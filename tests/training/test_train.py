@@ -5,6 +5,7 @@ import signal
 
 import pytest
 import torch
+
 from discjump_training import model, train
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.recipe import Recipe
@@ -70,7 +71,9 @@ def test_the_learning_rate_falls_linearly_through_a_resume(tiny, tmp_path, monke
     ppo = tiny.ppo
     for steps, rate in rates.items():
         left = 1.0 - steps / ppo.steps
-        assert rate == pytest.approx(ppo.final_learning_rate + left * (ppo.learning_rate - ppo.final_learning_rate))
+        assert rate == pytest.approx(
+            ppo.final_learning_rate + left * (ppo.learning_rate - ppo.final_learning_rate)
+        )
     assert sorted(rates) == [512, 1_024]
 
 
@@ -90,7 +93,7 @@ def test_what_a_run_leaves_behind(tiny, tmp_path):
         path.name for path in folder.iterdir()
     }
     assert [path.name for path in train.checkpoints(folder)] == ["000000000768.zip", "000000001024.zip"]
-    assert not [path for path in folder.rglob("*.part")]
+    assert not list(folder.rglob("*.part"))
     assert list((folder / "tensorboard").glob("events*"))
     assert Recipe.load(folder / "recipe.toml") == tiny
 

@@ -39,9 +39,7 @@ def train() -> None:
 @click.option(
     "--set", "overrides", multiple=True, metavar="FIELD=VALUE", help="Change a field of the recipe."
 )
-@click.option(
-    "--seed", type=click.IntRange(0, MAX_RUN_SEED), help="Of the run.  [default: 0]"
-)
+@click.option("--seed", type=click.IntRange(0, MAX_RUN_SEED), help="Of the run.  [default: 0]")
 @click.option("--steps", type=click.IntRange(min=1), help="Decisions in all, in place of the recipe's.")
 @click.option("--threads", type=click.IntRange(min=1), help="Of the simulator, in place of the recipe's.")
 @click.option(
@@ -111,7 +109,8 @@ def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool
         sys.exit(INTERRUPTED)
     click.echo(
         f"{result.steps:,} decisions in {clock.training:.0f} s of training "
-        f"({result.steps / clock.training:,.0f} a second; environment {clock.share('environment'):.0%}, policy {clock.share('policy'):.0%}, "
+        f"({result.steps / clock.training:,.0f} a second;"
+        f" environment {clock.share('environment'):.0%}, policy {clock.share('policy'):.0%}, "
         f"update {clock.share('update'):.0%}) and {clock.evaluation:.0f} s of evaluation.\n"
         f"Best model: {folder / 'best.zip'}, {result.progress.best_seconds:.2f} s on "
         f"{recipe.watch.evaluate_course}."

@@ -29,7 +29,6 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-import discjump.sb3
 import numpy as np
 import torch
 from stable_baselines3 import PPO
@@ -40,6 +39,7 @@ from stable_baselines3.common.vec_env import VecEnvWrapper
 from stable_baselines3.common.vec_env.base_vec_env import VecEnvObs, VecEnvStepReturn
 from tqdm import tqdm
 
+import discjump.sb3
 from discjump_training import episodes, model
 from discjump_training.courses import COURSES, run_seed
 from discjump_training.errors import RecipeError, TrainingError
