@@ -44,7 +44,7 @@ def rollout(fidelity: str) -> str:
     for decision in range(DECISIONS):
         for array in envs.step(actions(decision))[:4]:
             digest.update(array.tobytes())
-    digest.update(envs.snapshot())
+    digest.update(envs.state().tobytes())
     return digest.hexdigest()
 
 
