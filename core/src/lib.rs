@@ -1,4 +1,32 @@
 //! The movement of Tribes 1 (skiing, jetting, disc jumping) as a batched simulator.
+//!
+//! Nothing here knows of Python, and nothing but terrain loading touches a file. Dependencies point
+//! down only; a lower room that used an upper one could no longer be tested, or vectorised, alone:
+//!
+//! ```text
+//! batch                     many players, threads, episodes, snapshots
+//!   task, observe           what an episode is, and what an agent sees
+//!     tick                  one player, one tick: a pure function
+//!       movement, forces    how he moves, and what pushes him
+//!         terrain           heights, normals, sweeps; generated maps and their statistics
+//!           player, scene   his state, and which parts of it a scene models
+//!             armor, rules  constants
+//!             real          the number type: f64, f32, later lanes
+//! random                    counted draws, used by terrain, task and batch
+//! ```
 
+pub mod armor;
+pub mod batch;
+pub mod error;
+pub mod forces;
+pub mod input;
+pub mod movement;
+pub mod observe;
+pub mod player;
 pub mod random;
+pub mod real;
+pub mod rules;
+pub mod scene;
+pub mod task;
 pub mod terrain;
+pub mod tick;

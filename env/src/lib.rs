@@ -1,6 +1,28 @@
-//! Python bindings of `discjump-core`.
+//! Python bindings of `discjump-core`: thin, typed in `_native.pyi`, re-exported by the package.
+//!
+//! * `terrain`: `Terrain`
+//! * `simulator`: `Simulator`, bodies without a task
+//! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `pools`: maps that batches share
+//! * `arrays`: numpy arrays in and out; which buffers may be used again
+//! * `errors`: refusals as Python exceptions
+
+mod arrays;
+mod errors;
+mod pools;
+mod simulator;
+mod ski;
+mod terrain;
 
 use pyo3::prelude::*;
 
+/// Private: what the package `discjump` is made from.
 #[pymodule]
-mod _native {}
+mod _native {
+    #[pymodule_export]
+    use crate::simulator::Simulator;
+    #[pymodule_export]
+    use crate::ski::SkiBatch;
+    #[pymodule_export]
+    use crate::terrain::Terrain;
+}

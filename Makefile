@@ -1,0 +1,143 @@
+# Needs CPython 3.11 or newer and a Rust toolchain; everything else goes into .venv and the cargo target directory.
+# Each step of the set-up leaves a stamp in .stamps/ and is redone only when what it reads has changed.
+
+PYTHON ?= python3
+RUN ?= runs/ski
+TRAIN_ARGS ?=
+PYTEST_ARGS ?=
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-builtin-rules
+.DEFAULT_GOAL := help
+
+VENV := $(CURDIR)/.venv
+PY := $(VENV)/bin/python
+UV := $(VENV)/bin/uv
+UV_PIP = UV_COMPILE_BYTECODE=1 $(UV) pip
+
+# Rust builds, tests and lints all see the interpreter of the virtual environment, or pyo3 would be built anew in turn.
+export PYO3_PYTHON := $(PY)
+export PATH := $(VENV)/bin:$(PATH)
+unexport VIRTUAL_ENV PYTHONHOME PYTHONPATH CONDA_PREFIX
+
+# Directories are listed beside the files, so that a deleted file counts as a change.
+NATIVE_SOURCES := $(shell find core/src env/src) Cargo.toml Cargo.lock core/Cargo.toml env/Cargo.toml pyproject.toml
+
+# A stamp without what it stands for (the extension was deleted by hand, say) is no stamp.
+ifeq ($(wildcard env/python/discjump/_native*.so),)
+$(shell rm -f .stamps/env .stamps/env-fast)
+endif
+
+.PHONY: help
+help: ## This list
+	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sort \
+	  | awk -F ':.*## ' '{ printf "  make %-12s %s\n", $$1, $$2 }'
+
+# ---------------------------------------------------------------------------------------------- set-up
+
+$(UV): | .stamps
+	@$(PYTHON) -c 'import sys; ok = sys.version_info >= (3, 11) and sys.implementation.name == "cpython"; \
+	  ok or sys.exit("discjump needs CPython 3.11 or newer, $(PYTHON) is %s %s: try make PYTHON=python3.12" \
+	  % (sys.implementation.name, sys.version.split()[0]))'
+	@command -v cargo > /dev/null || { echo "discjump needs a Rust toolchain, and there is no cargo on PATH" >&2; exit 1; }
+	rm -rf $(VENV)
+	$(PYTHON) -m venv $(VENV)
+	$(PY) -m pip install --quiet --disable-pip-version-check "$$(grep '^uv==' requirements.lock)"
+
+.stamps:
+	@mkdir -p $@
+
+# Syncing removes whatever the lock does not list, our own packages included: both are installed after it.
+.stamps/sync: requirements.lock $(UV) | .stamps
+	$(UV_PIP) sync --quiet --python $(PY) requirements.lock
+	@touch $@
+
+# An editable install: an edit of Python needs no rebuild, only Rust and metadata do.
+.stamps/env: .stamps/sync $(NATIVE_SOURCES) | .stamps
+	$(UV_PIP) install --quiet --python $(PY) --no-build-isolation --no-deps --editable .
+	@rm -f .stamps/env-fast && touch $@
+
+.stamps/training: .stamps/sync training/pyproject.toml Cargo.toml | .stamps
+	$(UV_PIP) install --quiet --python $(PY) --no-build-isolation --no-deps --editable training
+	@touch $@
+
+.PHONY: setup tools dev lock
+setup: .stamps/env .stamps/training ## Virtual environment, locked dependencies, release build of both packages
+
+tools: .stamps/sync ## Virtual environment and locked dependencies only
+
+# The extension with the profile `fast`: rebuilt in about a second, for the inner loop only.
+.stamps/env-fast: .stamps/sync $(NATIVE_SOURCES) | .stamps
+	$(UV_PIP) install --quiet --python $(PY) --no-build-isolation --no-deps \
+	  --config-setting build-args="--profile fast" --editable .
+	@rm -f .stamps/env && touch $@
+
+dev: .stamps/env-fast .stamps/training ## Inner loop: the extension in the quick profile (bench nothing with it)
+
+lock: $(UV) ## Resolve requirements.lock anew from both pyproject.toml
+	$(UV) pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest \
+	  --no-emit-index-url --no-annotate --no-header --no-emit-package discjump \
+	  --extra dev --output-file requirements.lock pyproject.toml training/pyproject.toml
+
+# ---------------------------------------------------------------------------------------------- the main job
+
+.PHONY: train smoke
+train: setup ## Set up, train a ski agent, judge it on terrain it never saw
+	$(VENV)/bin/discjump train ski --out $(RUN) $(TRAIN_ARGS)
+	$(VENV)/bin/discjump evaluate $(RUN)
+
+smoke: setup ## The main job in about 30 seconds, to see that it runs
+	@run=$$(mktemp -d) && trap 'rm -rf "$$run"' EXIT && \
+	  $(VENV)/bin/discjump train ski --smoke --out "$$run/ski" && \
+	  $(VENV)/bin/discjump evaluate "$$run/ski" --episodes 16
+
+# ---------------------------------------------------------------------------------------------- tests
+
+.PHONY: test test-rust test-python
+test: test-rust test-python ## Set up, then every test: Rust, Python, doctests of both and of README
+
+test-rust: .stamps/sync
+	cargo test --quiet --workspace --locked
+
+test-python: setup
+	$(PY) -m pytest $(PYTEST_ARGS)
+
+# ---------------------------------------------------------------------------------------------- lint
+
+.PHONY: lint fmt fmt-rust clippy ruff mypy stubtest
+lint: fmt-rust ruff clippy mypy stubtest ## Formatting, clippy, ruff, mypy, stubs against the binary
+
+fmt: .stamps/sync ## Format Rust and Python in place
+	cargo fmt --all
+	$(PY) -m ruff format .
+	$(PY) -m ruff check --fix .
+
+fmt-rust:
+	cargo fmt --all --check
+
+clippy: .stamps/sync
+	cargo clippy --quiet --workspace --all-targets --locked -- -D warnings
+
+ruff: .stamps/sync
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+
+mypy: setup
+	$(PY) -m mypy
+
+stubtest: setup
+	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml discjump._native
+
+# ---------------------------------------------------------------------------------------------- the rest
+
+.PHONY: bench clean
+bench: .stamps/sync ## Benches of the core, release profile
+	cargo bench --locked -p discjump-core
+
+clean: ## Remove the virtual environment, the stamps and every build product; runs/ stays
+	rm -rf .venv .stamps .mypy_cache .pytest_cache .ruff_cache .hypothesis dist
+	find env/python training tests -name __pycache__ -prune -exec rm -rf {} +
+	rm -f env/python/discjump/_native*.so
+	cargo clean --quiet

@@ -1,0 +1,70 @@
+//! Players as bytes: field by field, little-endian, NaN canonical, padding lanes left out.
+
+use crate::player::{FieldVisitor, Player, visit};
+use crate::real::Scalar;
+use crate::scene::Scene;
+
+struct Writer<'a>(&'a mut Vec<u8>);
+
+impl<T: Scalar> FieldVisitor<T> for Writer<'_> {
+    fn reals(&mut self, _name: &'static str, values: &mut [T]) {
+        for &mut x in values {
+            if T::DOUBLE {
+                let x = x.to_f64();
+                let x = if x.is_nan() { f64::NAN } else { x };
+                self.0.extend(x.to_le_bytes());
+            } else {
+                let x = x.to_f64() as f32;
+                let x = if x.is_nan() { f32::NAN } else { x };
+                self.0.extend(x.to_le_bytes());
+            }
+        }
+    }
+    fn int(&mut self, _name: &'static str, value: &mut i32) {
+        self.0.extend(value.to_le_bytes());
+    }
+    fn flag(&mut self, _name: &'static str, value: &mut bool) {
+        self.0.push(u8::from(*value));
+    }
+}
+
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> [u8; N] {
+        let (head, rest) = self.0.split_first_chunk::<N>().expect("the caller checked the length");
+        self.0 = rest;
+        *head
+    }
+}
+
+impl<T: Scalar> FieldVisitor<T> for Reader<'_> {
+    fn reals(&mut self, _name: &'static str, values: &mut [T]) {
+        for x in values {
+            *x = if T::DOUBLE {
+                T::from_f64(f64::from_le_bytes(self.take()))
+            } else {
+                T::from_f64(f64::from(f32::from_le_bytes(self.take())))
+            };
+        }
+    }
+    fn int(&mut self, _name: &'static str, value: &mut i32) {
+        *value = i32::from_le_bytes(self.take());
+    }
+    fn flag(&mut self, _name: &'static str, value: &mut bool) {
+        *value = self.take::<1>()[0] != 0;
+    }
+}
+
+/// Appends a player's fields; see [`visit`] for `place`.
+pub(super) fn write_player<S: Scene, T: Scalar>(p: &Player<S, T>, place: bool, out: &mut Vec<u8>) {
+    visit(&mut p.clone(), &mut Writer(out), place);
+}
+
+/// Reads a player's fields over `p`.
+///
+/// # Panics
+/// If there are too few bytes: callers check.
+pub(super) fn read_player<S: Scene, T: Scalar>(p: &mut Player<S, T>, place: bool, bytes: &[u8]) {
+    visit(p, &mut Reader(bytes), place);
+}

@@ -1,0 +1,222 @@
+//! The observation of the ski task.
+
+use super::landing::{HORIZON, landing};
+use crate::armor::{GRAVITY, JUMP_GRACE_MS};
+use crate::error::{InputError, refuse};
+use crate::player::Player;
+use crate::real::Scalar;
+use crate::rules::Rules;
+use crate::scene::{Group, Scene};
+use crate::task::Run;
+use crate::terrain::Surface;
+
+/// Observations lie in [-CLIP, CLIP].
+pub const CLIP: f32 = 8.0;
+/// Most samples of the fan.
+const MAX_SAMPLES: usize = 4096;
+
+/// A stretch of the observation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayoutField {
+    /// Its name.
+    pub name: &'static str,
+    /// How many numbers.
+    pub count: usize,
+    /// Unit of `number * scale`; empty where the number has none.
+    pub unit: &'static str,
+    /// What a number is multiplied by to get the unit.
+    pub scale: f64,
+}
+
+/// Which observation a batch makes: horizontal vectors are (forward, right) of the player's yaw.
+#[derive(Clone, Debug)]
+pub struct SkiObservation {
+    /// Unit (forward, right) of every bearing.
+    bearings: Vec<[f64; 2]>,
+    ranges: Vec<f64>,
+    landing: bool,
+}
+
+/// Scales: speeds of a good skier, drop of a typical hill, way to a typical beacon.
+const SPEED: f64 = 20.0;
+const HEIGHT: f64 = 20.0;
+const CLEARANCE: f64 = 30.0;
+const DISTANCE: f64 = 400.0;
+/// Half-way points of the bending features h / (h + 3 m) and 30 m / (30 m + d).
+const LOW: f64 = 3.0;
+const NEAR: f64 = 30.0;
+
+impl SkiObservation {
+    /// An observation with a fan of terrain heights at every bearing (degrees, 0 ahead, positive to
+    /// the left) and range (metres), and with the ballistic landing or without it.
+    ///
+    /// # Errors
+    /// If a bearing or a range is out of range, or there are more than 4096 samples.
+    pub fn new(bearings: &[f64], ranges: &[f64], landing: bool) -> Result<Self, InputError> {
+        if bearings.len() * ranges.len() > MAX_SAMPLES {
+            refuse!(
+                "fan: expected at most {MAX_SAMPLES} samples, got {} bearings x {} ranges",
+                bearings.len(),
+                ranges.len()
+            );
+        }
+        if let Some(b) = bearings.iter().find(|b| b.is_nan() || b.abs() > 180.0) {
+            refuse!("fan_bearings: expected -180 to 180 degrees, got {b}");
+        }
+        if let Some(r) = ranges.iter().find(|r| !(0.0..=2000.0).contains(*r)) {
+            refuse!("fan_ranges: expected 0 to 2000 m, got {r}");
+        }
+        let bearings = bearings
+            .iter()
+            .map(|b| {
+                let angle = b.to_radians();
+                [libm::cos(angle), -libm::sin(angle)]
+            })
+            .collect();
+        Ok(Self { bearings, ranges: ranges.to_vec(), landing })
+    }
+
+    /// The layout of a row.
+    #[must_use]
+    pub fn layout<S: Scene>(&self, max_energy: f64, max_damage: f64) -> Vec<LayoutField> {
+        let mut layout = Vec::new();
+        let mut add = |name, count, unit, scale| layout.push(LayoutField { name, count, unit, scale });
+        add("velocity", 3, "m/s", SPEED);
+        add("speed", 1, "m/s", SPEED);
+        add("beacon_direction", 2, "", 1.0);
+        add("beacon_distance", 1, "m", DISTANCE);
+        add("beacon_nearness", 1, "", 1.0);
+        add("beacon_height", 1, "m", HEIGHT);
+        add("closing_speed", 1, "m/s", SPEED);
+        add("lateral_speed", 1, "m/s", SPEED);
+        add("ground_normal", 2, "", 1.0);
+        add("height_bend", 1, "", 1.0);
+        add("height", 1, "m", CLEARANCE);
+        if S::Energy::<f32>::MODELED {
+            add("energy", 1, "energy", max_energy);
+        }
+        if S::Contact::<f32>::MODELED {
+            add("jump_grace", 1, "ms", f64::from(JUMP_GRACE_MS));
+        }
+        if S::Jet::<f32>::MODELED {
+            add("jetting", 1, "", 1.0);
+        }
+        if S::Damage::<f32>::MODELED {
+            add("damage", 1, "damage", max_damage);
+        }
+        if self.landing {
+            add("landing_time", 1, "s", HORIZON);
+            add("landing_normal", 2, "", 1.0);
+            add("landing_impact", 1, "m/s", SPEED);
+            add("landing_slope", 1, "", 1.0);
+            add("landing_rise", 1, "m", HEIGHT);
+        }
+        if self.samples() > 0 {
+            add("fan", self.samples(), "m", HEIGHT);
+        }
+        layout
+    }
+
+    /// Numbers in the fan: bearing by bearing, near to far.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.bearings.len() * self.ranges.len()
+    }
+
+    /// Numbers in a row.
+    #[must_use]
+    pub fn size<S: Scene>(&self) -> usize {
+        self.layout::<S>(1.0, 1.0).iter().map(|f| f.count).sum()
+    }
+
+    /// Writes one player's row. `lowest` stands for the height of ground that does not exist.
+    ///
+    /// # Panics
+    /// If `row` is not [`SkiObservation::size`] long.
+    pub fn write<S: Scene, T: Scalar>(
+        &self,
+        p: &Player<S, T>,
+        run: &Run<T>,
+        surface: &Surface<'_, T>,
+        rules: &Rules<T>,
+        lowest: T,
+        row: &mut [f32],
+    ) {
+        let t = T::from_f64;
+        let one = t(1.0);
+        let mut row = Row(row.iter_mut());
+        let (sin, cos) = p.yaw.sin_cos();
+        // (forward, right) parts of a horizontal vector.
+        let turned = |x: T, y: T| [y * cos - x * sin, x * cos + y * sin];
+        let v = p.velocity;
+        let speed = (v.x * v.x + v.y * v.y).sqrt();
+        let (bx, by) = run.to_goal(p.position, [p.tile_x, p.tile_y], surface);
+        let distance = (bx * bx + by * by).sqrt();
+        let safe = distance.max(t(1e-3));
+        let (ux, uy) = (bx / safe, by / safe);
+        let ground = surface.ground::<T>(p.map, p.position.x, p.position.y);
+        let below = if ground.exists { ground.height } else { lowest };
+        let height = (p.position.z - below).max(T::zero());
+        let normal = ground.normal();
+
+        let [forward, right] = turned(v.x, v.y);
+        row.push(&[forward, right, v.z, speed], t(1.0 / SPEED));
+        row.push(&turned(ux, uy), one);
+        row.push(&[distance], t(1.0 / DISTANCE));
+        row.push(&[t(NEAR) / (t(NEAR) + distance)], one);
+        row.push(&[run.goal.z - p.position.z], t(1.0 / HEIGHT));
+        row.push(&[v.x * ux + v.y * uy, v.x * uy - v.y * ux], t(1.0 / SPEED));
+        row.push(&turned(normal.x, normal.y), one);
+        row.push(&[height / (height + t(LOW))], one);
+        row.push(&[height], t(1.0 / CLEARANCE));
+        if S::Energy::<T>::MODELED {
+            row.push(&[p.energy.get(one)], one / rules.max_energy);
+        }
+        if S::Contact::<T>::MODELED {
+            let grace = (JUMP_GRACE_MS - p.contact().age).max(0);
+            row.push(&[T::from_int(grace)], t(1.0 / f64::from(JUMP_GRACE_MS)));
+        }
+        if S::Jet::<T>::MODELED {
+            row.push(&[T::from_int(i32::from(p.jetting.get(false)))], one);
+        }
+        if S::Damage::<T>::MODELED {
+            row.push(&[p.damage.get(one)], one / rules.max_damage);
+        }
+        if self.landing {
+            let there = landing(p, t(GRAVITY), surface);
+            let [gx, gy] = there.slope;
+            let up = one / (gx * gx + gy * gy + one).sqrt();
+            let along = (gx * v.x + gy * v.y) / speed.max(one);
+            row.push(&[there.time], t(1.0 / HORIZON));
+            row.push(&turned(-gx * up, -gy * up), one);
+            row.push(&[there.impact], t(1.0 / SPEED));
+            row.push(&[along], one);
+            row.push(&[there.rise], t(1.0 / HEIGHT));
+        }
+        let scale = t(1.0 / HEIGHT);
+        for &[ahead, aside] in &self.bearings {
+            let (ahead, aside) = (t(ahead), t(aside));
+            let dx = aside * cos - ahead * sin;
+            let dy = ahead * cos + aside * sin;
+            for &range in &self.ranges {
+                let range = t(range);
+                let g = surface.ground::<T>(p.map, p.position.x + dx * range, p.position.y + dy * range);
+                let z = if g.exists { g.height } else { lowest };
+                row.push(&[z - p.position.z], scale);
+            }
+        }
+        assert!(row.0.next().is_none(), "the row is longer than the layout");
+    }
+}
+
+/// Writes numbers one after the other, scaled and clipped.
+struct Row<'a>(core::slice::IterMut<'a, f32>);
+
+impl Row<'_> {
+    fn push<T: Scalar>(&mut self, numbers: &[T], scale: T) {
+        for &x in numbers {
+            let x = (x * scale).to_f64() as f32;
+            *self.0.next().expect("the row is as long as the layout") = x.clamp(-CLIP, CLIP);
+        }
+    }
+}

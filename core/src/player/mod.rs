@@ -1,0 +1,164 @@
+//! The player: one flat struct that is the whole truth about him.
+
+mod fields;
+
+pub use fields::{Field, FieldKind, FieldVisitor, fields, visit};
+
+use crate::armor::JUMP_GRACE_MS;
+use crate::real::{Int, Mask, Real, Scalar, V3};
+use crate::rules::Rules;
+use crate::scene::{Group, Scene};
+
+/// Memory of the last surface that could be jumped from.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact<R: Real> {
+    /// Its normal.
+    pub normal: V3<R>,
+    /// Milliseconds since it was touched, saturating at [`OLDEST_MS`]; [`JUMP_GRACE_MS`] or more: expired.
+    pub age: R::Int,
+}
+
+/// Ages stop here: two weeks, and far from the end of `i32`.
+pub const OLDEST_MS: i32 = 1 << 30;
+
+/// State of one player, or of as many as `R` has lanes (docs/physics.md, section 3.1).
+///
+/// The origin is the centre of the feet. Positions are local: metres from the map's centre vertex,
+/// kept within one period of a tiling map, with the tile counted beside it. So a player 1e9 m away
+/// is simulated as exactly as one at the centre.
+#[derive(Clone, Copy, Debug)]
+pub struct Player<S: Scene, R: Real> {
+    /// Local position, m.
+    pub position: V3<R>,
+    /// Tiles east of the first one.
+    pub tile_x: R::Int,
+    /// Tiles north of the first one.
+    pub tile_y: R::Int,
+    /// Where the player's map starts in the pool of heights.
+    pub map: R::Int,
+    /// Velocity, m/s.
+    pub velocity: V3<R>,
+    /// View yaw, radians counter-clockwise from north, in [-pi, pi).
+    pub yaw: R,
+    /// View pitch, radians, up positive.
+    pub pitch: R,
+    /// Friction memory f, 0 to 1.
+    pub friction: R,
+    /// Whether anything was touched in the last tick.
+    pub touched: R::Mask,
+    /// Whether the player crawled or had the speed he wished for.
+    pub crawled: R::Mask,
+    /// The last jumpable contact.
+    pub contact: S::Contact<R>,
+    /// Whether the jets burn.
+    pub jetting: S::Jet<R>,
+    /// Jet energy.
+    pub energy: S::Energy<R>,
+    /// Damage taken.
+    pub damage: S::Damage<R>,
+}
+
+impl<S: Scene, R: Real> Player<S, R> {
+    /// A fresh player at rest: full tank, no damage, no memory of any contact.
+    #[must_use]
+    pub fn new(rules: &Rules<R::Scalar>, position: V3<R>, map: R::Int) -> Self {
+        let off = R::Mask::splat(false);
+        let zero = R::Int::splat(0);
+        Self {
+            position,
+            tile_x: zero,
+            tile_y: zero,
+            map,
+            velocity: V3::zero(),
+            yaw: R::zero(),
+            pitch: R::zero(),
+            friction: R::zero(),
+            touched: off,
+            crawled: off,
+            contact: Group::new(Contact { normal: V3::up(), age: R::Int::splat(JUMP_GRACE_MS) }),
+            jetting: Group::new(off),
+            energy: Group::new(R::splat(rules.max_energy)),
+            damage: Group::new(R::zero()),
+        }
+    }
+
+    /// `a` where the mask is set, `b` elsewhere.
+    #[inline(always)]
+    #[must_use]
+    pub fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
+        let mut out = *b;
+        for lane in 0..R::LANES {
+            if mask.lane(lane) {
+                out.set_lane(lane, &a.lane(lane));
+            }
+        }
+        out
+    }
+
+    /// The player in one lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn lane(&self, lane: usize) -> Player<S, R::Scalar> {
+        let none = Contact { normal: V3::up(), age: R::Int::splat(0) };
+        let contact = self.contact.get(none);
+        Player {
+            position: self.position.lane(lane),
+            tile_x: self.tile_x.lane(lane),
+            tile_y: self.tile_y.lane(lane),
+            map: self.map.lane(lane),
+            velocity: self.velocity.lane(lane),
+            yaw: self.yaw.lane(lane),
+            pitch: self.pitch.lane(lane),
+            friction: self.friction.lane(lane),
+            touched: self.touched.lane(lane),
+            crawled: self.crawled.lane(lane),
+            contact: Group::new(Contact { normal: contact.normal.lane(lane), age: contact.age.lane(lane) }),
+            jetting: Group::new(self.jetting.get(R::Mask::splat(false)).lane(lane)),
+            energy: Group::new(self.energy.get(R::zero()).lane(lane)),
+            damage: Group::new(self.damage.get(R::zero()).lane(lane)),
+        }
+    }
+
+    /// Overwrites one lane.
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, p: &Player<S, R::Scalar>) {
+        self.position.set_lane(lane, p.position);
+        self.tile_x.set_lane(lane, p.tile_x);
+        self.tile_y.set_lane(lane, p.tile_y);
+        self.map.set_lane(lane, p.map);
+        self.velocity.set_lane(lane, p.velocity);
+        self.yaw.set_lane(lane, p.yaw);
+        self.pitch.set_lane(lane, p.pitch);
+        self.friction.set_lane(lane, p.friction);
+        self.touched.set_lane(lane, p.touched);
+        self.crawled.set_lane(lane, p.crawled);
+        let none = Contact { normal: V3::up(), age: 0 };
+        let theirs = p.contact.get(none);
+        let mut contact = self.contact.get(Contact { normal: V3::up(), age: R::Int::splat(0) });
+        contact.normal.set_lane(lane, theirs.normal);
+        contact.age.set_lane(lane, theirs.age);
+        self.contact.set(contact);
+        let mut jetting = self.jetting.get(R::Mask::splat(false));
+        jetting.set_lane(lane, p.jetting.get(false));
+        self.jetting.set(jetting);
+        let mut energy = self.energy.get(R::zero());
+        energy.set_lane(lane, p.energy.get(R::Scalar::default()));
+        self.energy.set(energy);
+        let mut damage = self.damage.get(R::zero());
+        damage.set_lane(lane, p.damage.get(R::Scalar::default()));
+        self.damage.set(damage);
+    }
+
+    /// The normal and age of the last jumpable contact; expired where the scene has no such memory.
+    #[inline(always)]
+    #[must_use]
+    pub fn contact(&self) -> Contact<R> {
+        self.contact.get(Contact { normal: V3::up(), age: R::Int::splat(JUMP_GRACE_MS) })
+    }
+}
+
+/// Local coordinates of a player as a plain point, exact.
+#[must_use]
+pub fn local<S: Scene, T: Scalar>(player: &Player<S, T>) -> glam::DVec3 {
+    glam::DVec3::new(player.position.x.to_f64(), player.position.y.to_f64(), player.position.z.to_f64())
+}

@@ -1,0 +1,122 @@
+//! The one number type the physics is written in.
+//!
+//! Every formula of the simulator is generic over [`Real`]: `f64` is the reference tier, `f32` the
+//! authentic one, and a vector of `f32` lanes is several players side by side. So the physics has no
+//! branches on numbers, only [`Mask`]s and [`Real::select`]; for scalars a mask is a `bool` and the
+//! compiler turns it back into the branch or the conditional move it prefers.
+//!
+//! Bits are part of the contract: only IEEE `+ - * /` and `sqrt`, comparisons and selects, in the
+//! order written; no fused multiply-add, no platform libm. A vector lane then gives the bits of the
+//! scalar.
+
+mod ops;
+mod scalar;
+mod sincos;
+mod vec3;
+
+pub use ops::{Int, Mask};
+pub use scalar::Scalar;
+pub use vec3::V3;
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number, or several players' numbers side by side.
+pub trait Real:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// One lane: `f32` or `f64`.
+    type Scalar: Scalar;
+    /// Integers as wide as `Self` has lanes: ages, square indices, map offsets.
+    type Int: Int<Mask = Self::Mask>;
+    /// The result of a comparison.
+    type Mask: Mask;
+    /// One `T` per lane, for what is rare enough to be handled player by player.
+    type Each<T: Copy + Send + Sync>: Copy + Send + Sync + AsRef<[T]> + AsMut<[T]>;
+
+    /// How many players one value holds.
+    const LANES: usize;
+
+    /// The same number in every lane.
+    fn splat(x: Self::Scalar) -> Self;
+    /// `f(lane)` for every lane.
+    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> Self::Each<T>;
+    /// The number in one lane.
+    fn lane(self, lane: usize) -> Self::Scalar;
+    /// Overwrites one lane.
+    fn set_lane(&mut self, lane: usize, x: Self::Scalar);
+    /// `self < other`; false where either is NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`; false where either is NaN.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `a` where the mask is set, `b` elsewhere.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// IEEE square root.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// Towards zero, saturating at the ends of `i32`; NaN gives 0.
+    fn truncate(self) -> Self::Int;
+    /// The nearest number to an integer.
+    fn from_int(i: Self::Int) -> Self;
+    /// `table[index]`, lane by lane.
+    ///
+    /// # Panics
+    /// If an index is negative or not below the table's length.
+    fn gather(table: &[Self::Scalar], index: Self::Int) -> Self;
+
+    /// A constant of the specification, rounded to the lane's type.
+    #[inline(always)]
+    fn lit(x: f64) -> Self {
+        Self::splat(Self::Scalar::from_f64(x))
+    }
+
+    /// Zero.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::lit(0.0)
+    }
+
+    /// `if self < other { self } else { other }`: the form whose bits every lane width shares.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+
+    /// `if self > other { self } else { other }`.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+
+    /// The largest integer not above `self`; exact while it fits `i32`, saturating beyond.
+    #[inline(always)]
+    fn floor_int(self) -> Self::Int {
+        let t = self.truncate();
+        Self::Int::select(self.lt(Self::from_int(t)), t - Self::Int::splat(1), t)
+    }
+
+    /// The smallest integer not below `self`, for `self >= 0`; saturating.
+    #[inline(always)]
+    fn ceil_int(self) -> Self::Int {
+        let t = self.truncate();
+        let short = Self::from_int(t).lt(self).and(t.lt(Self::Int::splat(i32::MAX)));
+        Self::Int::select(short, t + Self::Int::splat(1), t)
+    }
+
+    /// Sine and cosine of an angle in radians, by our own polynomials: 2 ulp for |angle| <= 2 pi, at
+    /// any instruction set.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        sincos::sin_cos(self)
+    }
+}

@@ -1,0 +1,114 @@
+//! Scenes: each lists what it models, and what it leaves out is neither stored nor computed.
+//!
+//! A scene is a zero-sized type. An optional group of a player's fields is an associated type that
+//! is [`Has`] of the group or [`Absent`]; the kernel asks [`Group::MODELED`], a constant, so the
+//! code of an absent feature is not compiled into the scene's kernel.
+
+use crate::real::Real;
+use core::fmt::Debug;
+
+/// An optional group of fields.
+pub trait Group<V: Copy>: Copy + Debug + Send + Sync + 'static {
+    /// Whether the scene models it.
+    const MODELED: bool;
+    /// The group at its start value.
+    fn new(value: V) -> Self;
+    /// The value, or `absent` where the scene does not model it.
+    fn get(&self, absent: V) -> V;
+    /// Overwrites the value; nothing where the scene does not model it.
+    fn set(&mut self, value: V);
+}
+
+/// A group that the scene models.
+#[derive(Clone, Copy, Debug)]
+pub struct Has<V>(pub V);
+
+/// A group that the scene leaves out: no bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct Absent;
+
+impl<V: Copy + Debug + Send + Sync + 'static> Group<V> for Has<V> {
+    const MODELED: bool = true;
+    #[inline(always)]
+    fn new(value: V) -> Self {
+        Self(value)
+    }
+    #[inline(always)]
+    fn get(&self, _absent: V) -> V {
+        self.0
+    }
+    #[inline(always)]
+    fn set(&mut self, value: V) {
+        self.0 = value;
+    }
+}
+
+impl<V: Copy> Group<V> for Absent {
+    const MODELED: bool = false;
+    #[inline(always)]
+    fn new(_value: V) -> Self {
+        Self
+    }
+    #[inline(always)]
+    fn get(&self, absent: V) -> V {
+        absent
+    }
+    #[inline(always)]
+    fn set(&mut self, _value: V) {}
+}
+
+/// The list of what a scene models.
+pub trait Scene: Copy + Debug + Send + Sync + 'static {
+    /// The public name.
+    const NAME: &'static str;
+    /// Whether the jump key does anything.
+    const JUMP: bool;
+    /// Memory of the last jumpable contact: needed by jumps and by jets.
+    type Contact<R: Real>: Group<crate::player::Contact<R>>;
+    /// Whether the jets burn.
+    type Jet<R: Real>: Group<R::Mask>;
+    /// Jet energy. A scene with jets and without energy burns them for ever.
+    type Energy<R: Real>: Group<R>;
+    /// Damage taken by landings.
+    type Damage<R: Real>: Group<R>;
+
+    /// The features that the scene models.
+    #[must_use]
+    fn models() -> Vec<&'static str> {
+        [
+            (Self::JUMP, "jump"),
+            (Self::Jet::<f32>::MODELED, "jet"),
+            (Self::Energy::<f32>::MODELED, "energy"),
+            (Self::Damage::<f32>::MODELED, "landing_damage"),
+        ]
+        .into_iter()
+        .filter_map(|(modeled, name)| modeled.then_some(name))
+        .collect()
+    }
+}
+
+/// Skiing over bare terrain: jump, jets with energy, landing damage.
+#[derive(Clone, Copy, Debug)]
+pub struct Ski;
+
+impl Scene for Ski {
+    const NAME: &'static str = "ski";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+}
+
+/// Physics tests and notebooks: everything that moves a player on bare terrain, and no task.
+#[derive(Clone, Copy, Debug)]
+pub struct Sandbox;
+
+impl Scene for Sandbox {
+    const NAME: &'static str = "sandbox";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+}

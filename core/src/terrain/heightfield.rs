@@ -1,0 +1,172 @@
+//! One terrain as its user gave it.
+
+use crate::error::{InputError, refuse};
+
+/// What lies beyond a map's rim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// The map again, for ever, with a period of one square less than it has vertices.
+    Tile,
+    /// A vertex outside has the height of the nearest rim vertex.
+    Clamp,
+    /// Nothing: free fall, height NaN.
+    Void,
+}
+
+impl Edge {
+    /// Its public name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tile => "tile",
+            Self::Clamp => "clamp",
+            Self::Void => "void",
+        }
+    }
+}
+
+impl core::str::FromStr for Edge {
+    type Err = InputError;
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        match name {
+            "tile" => Ok(Self::Tile),
+            "clamp" => Ok(Self::Clamp),
+            "void" => Ok(Self::Void),
+            _ => Err(InputError(format!("edge: expected \"tile\", \"clamp\" or \"void\", got {name:?}"))),
+        }
+    }
+}
+
+/// Largest magnitude of a height, m.
+pub const MAX_HEIGHT: f64 = 10_000.0;
+/// Smallest and largest side of a square, m.
+pub const SQUARE_RANGE: (f64, f64) = (0.01, 10_000.0);
+/// Most vertices of one map.
+pub const MAX_VERTICES: usize = 1 << 28;
+
+/// A heightfield: vertex heights, `heights[row y * cols + column x]`, metres.
+///
+/// Square (i, j), i east and j north, is cut from its low-x low-y corner to the opposite one where
+/// i + j is even, and across where it is odd (docs/physics.md, section 8).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heightfield {
+    heights: Vec<f64>,
+    rows: usize,
+    cols: usize,
+    square_size: f64,
+    origin: [f64; 2],
+    edge: Edge,
+}
+
+impl Heightfield {
+    /// Checks and takes a heightfield. `origin` is the place of `heights[0]`, in metres.
+    ///
+    /// # Errors
+    /// Fewer than 2 x 2 heights, a count that is not `rows * cols`, a height that is not finite or
+    /// beyond 10 km, a square size outside 0.01 to 10,000 m, an origin beyond 1e9 m, or, on
+    /// [`Edge::Tile`], a last row or column that does not repeat the first.
+    pub fn new(
+        heights: Vec<f64>,
+        rows: usize,
+        cols: usize,
+        square_size: f64,
+        origin: [f64; 2],
+        edge: Edge,
+    ) -> Result<Self, InputError> {
+        if rows < 2 || cols < 2 {
+            refuse!("heights: expected at least 2 x 2, got {rows} x {cols}");
+        }
+        if rows.checked_mul(cols).is_none_or(|n| n > MAX_VERTICES) {
+            refuse!("heights: expected at most {MAX_VERTICES} vertices, got {rows} x {cols}");
+        }
+        if heights.len() != rows * cols {
+            refuse!("heights: expected {rows} x {cols} values, got {}", heights.len());
+        }
+        if let Some(at) = heights.iter().position(|h| h.is_nan() || h.abs() > MAX_HEIGHT) {
+            refuse!(
+                "heights: expected finite values within +-{MAX_HEIGHT} m, got {} at row {}, column {}",
+                heights[at],
+                at / cols,
+                at % cols
+            );
+        }
+        if !(SQUARE_RANGE.0..=SQUARE_RANGE.1).contains(&square_size) {
+            refuse!("square_size: expected {} to {} m, got {square_size}", SQUARE_RANGE.0, SQUARE_RANGE.1);
+        }
+        if origin.iter().any(|x| x.is_nan() || x.abs() > 1e9) {
+            refuse!("origin: expected two finite numbers within +-1e9 m, got {origin:?}");
+        }
+        if edge == Edge::Tile {
+            let row = (0..cols).find(|&i| heights[i] != heights[(rows - 1) * cols + i]);
+            let col = (0..rows).find(|&j| heights[j * cols] != heights[j * cols + cols - 1]);
+            if let Some(i) = row {
+                refuse!(
+                    "heights: on edge \"tile\" the last row repeats the first, but they differ at column {i}"
+                );
+            }
+            if let Some(j) = col {
+                refuse!(
+                    "heights: on edge \"tile\" the last column repeats the first, but they differ at row {j}"
+                );
+            }
+        }
+        Ok(Self { heights, rows, cols, square_size, origin, edge })
+    }
+
+    /// Vertex heights, row by row, m.
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// Vertices north.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Vertices east.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Side of a square, m.
+    #[must_use]
+    pub fn square_size(&self) -> f64 {
+        self.square_size
+    }
+
+    /// Place of the first vertex, m.
+    #[must_use]
+    pub fn origin(&self) -> [f64; 2] {
+        self.origin
+    }
+
+    /// What lies beyond the rim.
+    #[must_use]
+    pub fn edge(&self) -> Edge {
+        self.edge
+    }
+
+    /// Whether two heightfields can share a pool: same shape, squares, place and edge.
+    #[must_use]
+    pub fn same_grid(&self, other: &Self) -> bool {
+        (self.rows, self.cols, self.square_size, self.origin, self.edge)
+            == (other.rows, other.cols, other.square_size, other.origin, other.edge)
+    }
+
+    /// XXH3-128 of shape, grid and heights, as 32 hexadecimal digits.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        let mut bytes = Vec::with_capacity(self.heights.len() * 8 + 64);
+        bytes.extend((self.rows as u64).to_le_bytes());
+        bytes.extend((self.cols as u64).to_le_bytes());
+        for x in [self.square_size, self.origin[0], self.origin[1]] {
+            bytes.extend(x.to_le_bytes());
+        }
+        bytes.extend(self.edge.name().as_bytes());
+        self.heights.iter().for_each(|h| bytes.extend(h.to_le_bytes()));
+        format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&bytes))
+    }
+}

@@ -1,0 +1,143 @@
+//! The exact sweep of a point against the triangulated surface (docs/physics.md, section 5).
+
+use super::surface::{Square, Surface, unit_normal};
+use crate::real::{Int, Mask, Real, Scalar, V3};
+
+/// The first contact along a path.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit<R: Real> {
+    /// Whether there is one.
+    pub hit: R::Mask,
+    /// Where, as a fraction of the path, in [0, 1].
+    pub fraction: R,
+    /// Unit normal of the triangle.
+    pub normal: V3<R>,
+}
+
+/// The part of a path that lies over one triangle, in the square's (mirrored) coordinates.
+struct Piece<R> {
+    from: R,
+    to: R,
+}
+
+/// The path relative to one square.
+struct Path<R> {
+    /// Start, in the square's mirrored coordinates.
+    x: R,
+    y: R,
+    z: R,
+    /// Displacement, mirrored.
+    dx: R,
+    dy: R,
+    dz: R,
+}
+
+/// Contact with the plane of one triangle: one-sided, and at the entry for what is already below.
+#[inline(always)]
+fn contact<R: Real>(
+    square: &Square<R>,
+    lower: R::Mask,
+    inverse: R,
+    path: &Path<R>,
+    piece: &Piece<R>,
+) -> (R::Mask, R, R, R) {
+    let plane = square.plane(lower, inverse);
+    // Signed distances to the plane times the same factor 1 / n.up, which their ratio does not see.
+    let approach = path.dz - (plane.gx * path.dx + plane.gy * path.dy);
+    let gap = path.z - (plane.z + plane.gx * path.x + plane.gy * path.y);
+    let enter = gap + approach * piece.from;
+    let leave = gap + approach * piece.to;
+    let zero = R::zero();
+    let under = enter.le(zero);
+    let crosses = leave.lt(zero);
+    let hit = square.ground.and(approach.lt(zero)).and(piece.from.lt(piece.to)).and(under.or(crosses));
+    let at = piece.from + (piece.to - piece.from) * (enter / (enter - leave));
+    let fraction = R::select(under, piece.from, at);
+    (hit, fraction, square.world_slope(&plane), plane.gy)
+}
+
+impl<T: Scalar> Surface<'_, T> {
+    /// Sweeps a point from a local position along a displacement, both in metres, and finds the
+    /// first triangle that it meets from above, or that it is already below where it enters the
+    /// triangle's column while moving into it. A path that only just reaches a plane does not meet it.
+    ///
+    /// Lanes outside `active` report no contact.
+    #[inline(always)]
+    pub fn sweep<R: Real<Scalar = T>>(
+        &self,
+        map: R::Int,
+        start: V3<R>,
+        path: V3<R>,
+        active: R::Mask,
+    ) -> Hit<R> {
+        let zero = R::zero();
+        let one = R::lit(1.0);
+        let mut found = R::Mask::splat(false);
+        let mut fraction = one;
+        let (mut slope_x, mut slope_y) = (zero, zero);
+
+        // Above every vertex on the whole path: nothing to meet.
+        let lowest = start.z.min(start.z + path.z);
+        let mut active = active.and(lowest.le(R::splat(self.highest)));
+
+        let size = R::splat(self.square);
+        let inverse = self.inverse::<R>();
+        let (mut i, mut j) = self.square_of(start.x, start.y);
+        // The start relative to the current square's corner.
+        let mut x = start.x - R::from_int(i) * size;
+        let mut y = start.y - R::from_int(j) * size;
+        let (east, west) = (zero.lt(path.x), path.x.lt(zero));
+        let (north, south) = (zero.lt(path.y), path.y.lt(zero));
+        let (step_i, step_j) = (
+            R::Int::select(west, R::Int::splat(-1), R::Int::splat(1)),
+            R::Int::select(south, R::Int::splat(-1), R::Int::splat(1)),
+        );
+        let never = R::lit(2.0);
+        let mut from = zero;
+        while active.any() {
+            let to_x = R::select(east, size - x, -x) / path.x;
+            let to_y = R::select(north, size - y, -y) / path.y;
+            let to_x = R::select(east.or(west), to_x, never);
+            let to_y = R::select(north.or(south), to_y, never);
+            let next = to_x.min(to_y);
+            let to = next.min(one).max(from);
+
+            let square = self.square::<R>(map, i, j);
+            let mirror = square.mirrored;
+            let local = Path {
+                x: R::select(mirror, size - x, x),
+                y,
+                z: start.z,
+                dx: R::select(mirror, -path.x, path.x),
+                dy: path.y,
+                dz: path.z,
+            };
+            // Across the cut: beside the x axis while x - y > 0.
+            let side = local.x - local.y;
+            let turn = local.dx - local.dy;
+            let along = turn.le(zero).and(zero.le(turn));
+            let cut = (-side / turn).max(from).min(to);
+            let cut = R::select(along, to, cut);
+            let first_lower = R::select(along, -side, turn).lt(zero);
+            let (hit_a, at_a, gx_a, gy_a) =
+                contact(&square, first_lower, inverse, &local, &Piece { from, to: cut });
+            let (hit_b, at_b, gx_b, gy_b) =
+                contact(&square, first_lower.not(), inverse, &local, &Piece { from: cut, to });
+            let hit = active.and(hit_a.or(hit_b));
+            fraction = R::select(hit, R::select(hit_a, at_a, at_b), fraction);
+            slope_x = R::select(hit, R::select(hit_a, gx_a, gx_b), slope_x);
+            slope_y = R::select(hit, R::select(hit_a, gy_a, gy_b), slope_y);
+            found = found.or(hit);
+            active = active.and(hit.not()).and(next.lt(one));
+
+            let cross_x = to_x.le(to_y);
+            let cross_y = to_y.le(to_x);
+            i = R::Int::select(cross_x, i + step_i, i);
+            j = R::Int::select(cross_y, j + step_j, j);
+            x = R::select(cross_x, x - R::from_int(step_i) * size, x);
+            y = R::select(cross_y, y - R::from_int(step_j) * size, y);
+            from = to;
+        }
+        Hit { hit: found, fraction, normal: unit_normal(slope_x, slope_y) }
+    }
+}

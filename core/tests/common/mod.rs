@@ -1,0 +1,136 @@
+//! What the physics tests share: worlds of planes, and a simulator that is read by field name.
+#![allow(dead_code, missing_docs)]
+
+use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
+use discjump_core::player::FieldKind;
+use discjump_core::rules::Physics;
+use discjump_core::terrain::{Edge, Heightfield};
+
+/// A plane that falls towards +x by `degrees`: 4 km long, 32 m wide, its centre at height 0.
+pub fn slope(degrees: f64) -> Heightfield {
+    let (rows, cols) = (5, 513);
+    let gradient = -degrees.to_radians().tan();
+    let heights = (0..rows * cols).map(|k| gradient * 8.0 * ((k % cols) as f64 - 256.0)).collect();
+    Heightfield::new(heights, rows, cols, 8.0, [-2048.0, -16.0], Edge::Clamp).unwrap()
+}
+
+/// Rolling terrain that tiles: hills of 10 m every 256 m and smaller ones between.
+pub fn rolling() -> Heightfield {
+    let n = 65;
+    let wave = |i: usize, k: f64| (core::f64::consts::TAU * k * (i % (n - 1)) as f64 / (n - 1) as f64).sin();
+    let heights = (0..n * n)
+        .map(|k| {
+            let (i, j) = (k % n, k / n);
+            30.0 + 10.0 * wave(i, 2.0) * wave(j, 2.0) + 4.0 * wave(i + 3, 5.0) + 3.0 * wave(j, 7.0)
+        })
+        .collect();
+    Heightfield::new(heights, n, n, 8.0, [0.0, 0.0], Edge::Tile).unwrap()
+}
+
+pub struct World {
+    pub sim: Box<dyn Bodies>,
+}
+
+pub fn world(terrain: &Heightfield, fidelity: &str) -> World {
+    World { sim: setup(terrain, fidelity).build().unwrap() }
+}
+
+pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<'a> {
+    SimulatorSetup {
+        terrain,
+        players: 1,
+        scene: "sandbox",
+        armor: "light",
+        energy_pack: false,
+        fidelity,
+        physics: Physics::default(),
+        tick_ms: 32,
+        threads: Some(1),
+    }
+}
+
+impl World {
+    /// Byte offset of a field of a state, and its type and count.
+    fn field(&self, name: &str) -> (usize, FieldKind, usize) {
+        if name == "position" {
+            return (0, FieldKind::Real { double: true }, 3);
+        }
+        let mut at = 24;
+        for f in self.sim.state_fields() {
+            if f.name == name {
+                return (at, f.kind, f.count);
+            }
+            at += f.kind.bytes() * f.count;
+        }
+        panic!("no field {name}");
+    }
+
+    /// A field of player 0.
+    pub fn get(&self, name: &str) -> Vec<f64> {
+        let (at, kind, count) = self.field(name);
+        let state = self.sim.state();
+        (0..count)
+            .map(|k| {
+                let b = &state[at + k * kind.bytes()..];
+                match kind {
+                    FieldKind::Real { double: true } => f64::from_le_bytes(b[..8].try_into().unwrap()),
+                    FieldKind::Real { double: false } => {
+                        f64::from(f32::from_le_bytes(b[..4].try_into().unwrap()))
+                    }
+                    FieldKind::Int => f64::from(i32::from_le_bytes(b[..4].try_into().unwrap())),
+                    FieldKind::Flag => f64::from(b[0]),
+                }
+            })
+            .collect()
+    }
+
+    /// Overwrites fields of player 0.
+    pub fn set(&mut self, fields: &[(&str, &[f64])]) {
+        let stride = self.sim.state_bytes();
+        let mut state = self.sim.state()[..stride].to_vec();
+        for &(name, values) in fields {
+            let (at, kind, count) = self.field(name);
+            assert_eq!(values.len(), count, "{name}");
+            for (k, &v) in values.iter().enumerate() {
+                let at = at + k * kind.bytes();
+                match kind {
+                    FieldKind::Real { double: true } => state[at..at + 8].copy_from_slice(&v.to_le_bytes()),
+                    FieldKind::Real { double: false } => {
+                        state[at..at + 4].copy_from_slice(&(v as f32).to_le_bytes());
+                    }
+                    FieldKind::Int => state[at..at + 4].copy_from_slice(&(v as i32).to_le_bytes()),
+                    FieldKind::Flag => state[at] = v as u8,
+                }
+            }
+        }
+        self.sim.set_state(&[0], &state).unwrap();
+    }
+
+    pub fn step(&mut self, input: RawInput) {
+        self.sim.step(&[input], 1).unwrap();
+    }
+
+    pub fn position(&self) -> [f64; 3] {
+        self.get("position").try_into().unwrap()
+    }
+
+    pub fn velocity(&self) -> [f64; 3] {
+        self.get("velocity").try_into().unwrap()
+    }
+
+    pub fn speed(&self) -> f64 {
+        self.velocity().iter().map(|v| v * v).sum::<f64>().sqrt()
+    }
+
+    /// Looks along +x: downhill on [`slope`].
+    pub fn face_east(&mut self) {
+        self.set(&[("yaw", &[-core::f64::consts::FRAC_PI_2])]);
+    }
+}
+
+pub const JUMP: RawInput =
+    RawInput { forward: 0, strafe: 0, jump: 1, jet: 0, fire: 0, turn: 0.0, pitch: 0.0 };
+pub const JET: RawInput = RawInput { jump: 0, jet: 1, ..JUMP };
+pub const IDLE: RawInput = RawInput { jump: 0, ..JUMP };
+pub const FORWARD: RawInput = RawInput { forward: 1, ..IDLE };
+pub const SKI: RawInput = RawInput { forward: 1, ..JUMP };

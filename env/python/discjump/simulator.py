@@ -1,0 +1,209 @@
+"""Bodies without a task: state in, ticks, state out. For physics tests, notebooks and planners."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from discjump import _native
+from discjump._native import Terrain
+
+#: One player's keys and view in a tick: forward and strafe in -1, 0, 1; jump, jet and fire pressed or
+#: not; turn in rad/s, positive to the left; pitch in radians, up positive. One dtype for all scenes:
+#: what a scene does not model is ignored.
+INPUT = np.dtype(
+    [
+        ("forward", "i1"),
+        ("strafe", "i1"),
+        ("jump", "?"),
+        ("jet", "?"),
+        ("fire", "?"),
+        ("turn", "<f8"),
+        ("pitch", "<f8"),
+    ],
+    align=True,
+)
+
+
+@dataclass(frozen=True)
+class Physics:
+    """Switches of the movement model (core/docs/physics.md, section 12)."""
+
+    #: Whether the fourth contact of a tick stops the player dead.
+    ski_bug: bool = False
+    #: Whether jets go out at an energy of 1 and light again at 5. Without it an empty tank gives free thrust.
+    hysteresis: bool = True
+
+
+class Simulator:
+    """Many players on one terrain.
+
+    Players start fresh, at rest at the terrain's centre, on the ground.
+
+    >>> import discjump
+    >>> terrain = discjump.Terrain.raindance(seed=7)
+    >>> sim = discjump.Simulator(terrain, num_players=3, threads=1)
+    >>> inputs = sim.inputs()
+    >>> inputs["jet"] = True
+    >>> sim.step(inputs, ticks=31)
+    >>> bool((sim.state()["velocity"][:, 2] > 5.0).all())
+    True
+    """
+
+    def __init__(
+        self,
+        terrain: Terrain,
+        num_players: int = 1,
+        scene: str = "sandbox",
+        armor: str = "light",
+        energy_pack: bool = False,
+        fidelity: str = "authentic",
+        physics: Physics | None = None,
+        tick_ms: int = 32,
+        threads: int | None = None,
+        seed: int = 0,
+    ) -> None:
+        """Make a simulator.
+
+        Args:
+            terrain: where they move.
+            num_players: how many, each alone in the world.
+            scene: "ski" or "sandbox".
+            armor: "light", "medium" or "heavy".
+            energy_pack: whether they wear one: 3 energy/s more.
+            fidelity: "authentic" (float32) or "reference" (float64).
+            physics: switches of the movement model.
+            tick_ms: tick length, 1 to 1000 ms; the game's is 32.
+            threads: 1 to 256; None for one per core. The bits do not depend on it.
+            seed: for scenes that draw something; these two draw nothing.
+
+        Raises:
+            ValueError: an argument out of range or unknown, with what was expected.
+            TypeError: an argument of another type.
+        """
+        if not isinstance(terrain, Terrain):
+            raise TypeError(f"terrain: expected a discjump.Terrain, got {type(terrain).__name__}")
+        self.seed = seed
+        switches = physics or Physics()
+        self._native = _native.Simulator(
+            terrain,
+            _whole("num_players", num_players),
+            scene,
+            armor,
+            energy_pack,
+            fidelity,
+            (switches.ski_bug, switches.hysteresis),
+            _whole("tick_ms", tick_ms),
+            None if threads is None else _whole("threads", threads),
+        )
+
+    @property
+    def num_players(self) -> int:
+        """How many players."""
+        return self._native.num_players
+
+    @property
+    def models(self) -> list[str]:
+        """What the scene models."""
+        return self._native.models
+
+    @property
+    def player_bytes(self) -> int:
+        """Bytes that one player takes in memory."""
+        return self._native.player_bytes
+
+    @property
+    def state_dtype(self) -> np.dtype[np.void]:
+        """The structured dtype of a state.
+
+        position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
+        crawled, friction, jump_normal (3), jump_age (i4, ms). Numbers are f8 in `reference`, else f4;
+        fields of what the scene does not model are absent.
+        """
+        return self._native.state_dtype
+
+    def state(self) -> NDArray[np.void]:
+        """A copy of all states: structured, shape (num_players,)."""
+        return self._native.state()
+
+    def set_state(self, state: NDArray[Any], indices: ArrayLike | None = None) -> None:
+        """Overwrite states.
+
+        Args:
+            state: dtype `state_dtype`, shape (num_players,), or (len(indices),).
+            indices: which players; all where None.
+
+        Raises:
+            TypeError: another dtype.
+            ValueError: another shape, an index or a value out of range. Then nothing was changed.
+        """
+        if indices is None:
+            chosen = list(range(self.num_players))
+        else:
+            array = np.asarray(indices)
+            if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
+                raise ValueError(
+                    f"indices: expected integers of shape (n,), got {array.dtype} of shape {array.shape}"
+                )
+            if array.size and (array.min() < 0 or array.max() >= self.num_players):
+                raise ValueError(f"indices: expected 0 to {self.num_players - 1}, got {array.tolist()}")
+            chosen = [int(i) for i in array]
+        self._native.set_state(chosen, _packed("state", state, self.state_dtype, len(chosen)))
+
+    def inputs(self) -> NDArray[np.void]:
+        """Inputs with no key pressed: dtype `INPUT`, shape (num_players,)."""
+        return np.zeros(self.num_players, INPUT)
+
+    def step(self, inputs: NDArray[Any], ticks: int = 1) -> None:
+        """Play ticks, with the same inputs in each. Ctrl-C is answered between ticks.
+
+        Args:
+            inputs: dtype `INPUT`, shape (num_players,).
+            ticks: 0 to 2^32 - 1.
+
+        Raises:
+            TypeError: another dtype.
+            ValueError: another shape or a value out of range. Then nothing was changed.
+        """
+        ticks = _whole("ticks", ticks)
+        if ticks >= 2**32:
+            raise ValueError(f"ticks: expected 0 to 2^32 - 1, got {ticks}")
+        self._native.step(_packed("inputs", inputs, INPUT, self.num_players), ticks)
+
+    def snapshot(self) -> bytes:
+        """Everything, as bytes that `restore` takes."""
+        return self._native.snapshot()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Go back to a snapshot of a simulator with the same arguments.
+
+        Raises:
+            ValueError: a damaged snapshot, or one of another layout. Then nothing was changed.
+        """
+        self._native.restore(snapshot)
+
+    def digest(self) -> str:
+        """32 hexadecimal digits that name the players' exact bits (XXH3-128)."""
+        return self._native.digest()
+
+
+def _whole(name: str, value: object) -> int:
+    """A whole number that is not negative."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise TypeError(f"{name}: expected an int, got {type(value).__name__}")
+    if value < 0:
+        raise ValueError(f"{name}: expected a number that is not negative, got {value}")
+    return int(value)
+
+
+def _packed(name: str, array: object, dtype: np.dtype[Any], rows: int) -> bytes:
+    """The bytes of a structured array of this dtype and shape (rows,)."""
+    if not isinstance(array, np.ndarray) or array.dtype != dtype:
+        got = array.dtype if isinstance(array, np.ndarray) else type(array).__name__
+        raise TypeError(f"{name}: expected an array of dtype {dtype}, got {got}")
+    if array.shape != (rows,):
+        raise ValueError(f"{name}: expected shape ({rows},), got {array.shape}")
+    return array.tobytes()

@@ -1,0 +1,113 @@
+//! numpy arrays in and out.
+//!
+//! The contract on returned arrays: a buffer is used again only when Python holds no reference to it
+//! or to a view of it any more, which its own reference count says, since every view keeps its owner
+//! alive. So nothing is copied, and nothing that a user stored ever changes.
+
+use numpy::{Element, PyArray, PyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyList};
+
+/// Buffers of one shape, lent to Python one at a time.
+pub struct Buffers<T, D> {
+    shape: D,
+    lent: Vec<Py<PyArray<T, D>>>,
+}
+
+/// Beyond this many the oldest is left to Python: a user who stores every observation owns them all.
+const KEPT: usize = 4;
+
+impl<T: Element + Clone, D: numpy::ndarray::Dimension> Buffers<T, D> {
+    /// Buffers of a shape; none is made yet.
+    pub fn new(shape: D) -> Self {
+        Self { shape, lent: Vec::new() }
+    }
+
+    /// A buffer that nobody else holds. What it contains is unspecified (zeros when new).
+    pub fn take<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyArray<T, D>> {
+        let free = self.lent.iter().position(|array| reference_count(array) == 1);
+        let array = match free {
+            Some(at) => self.lent.remove(at),
+            None => PyArray::<T, D>::zeros(py, self.shape.clone(), false).unbind(),
+        };
+        if self.lent.len() == KEPT {
+            self.lent.remove(0);
+        }
+        self.lent.push(array.clone_ref(py));
+        array.into_bound(py)
+    }
+}
+
+fn reference_count<T>(array: &Py<T>) -> isize {
+    // SAFETY: the pointer is alive while `array` is.
+    unsafe { pyo3::ffi::Py_REFCNT(array.as_ptr()) }
+}
+
+/// A packed structured array over bytes. `fields` are (name, numpy type code, count).
+pub fn structured<'py>(
+    py: Python<'py>,
+    fields: &[(&str, &str, usize)],
+    bytes: &[u8],
+) -> PyResult<Bound<'py, PyAny>> {
+    let dtype = dtype(py, fields)?;
+    py.import("numpy")?.call_method1("frombuffer", (PyByteArray::new(py, bytes), dtype))
+}
+
+/// A packed structured dtype.
+pub fn dtype<'py>(py: Python<'py>, fields: &[(&str, &str, usize)]) -> PyResult<Bound<'py, PyAny>> {
+    let list = PyList::empty(py);
+    for &(name, code, count) in fields {
+        if count == 1 {
+            list.append((name, code))?;
+        } else {
+            list.append((name, code, (count,)))?;
+        }
+    }
+    py.import("numpy")?.call_method1("dtype", (list,))
+}
+
+/// A contiguous copy of `(n, columns)` numbers as f64.
+pub fn rows(
+    py: Python<'_>,
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    columns: &[usize],
+) -> PyResult<(Vec<f64>, usize)> {
+    let array = as_float64(py, name, value)?;
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    let fits = shape.len() == 2 && columns.contains(&shape[1]);
+    if !fits {
+        let wanted: Vec<String> = columns.iter().map(|c| format!("(n, {c})")).collect();
+        return Err(PyValueError::new_err(format!(
+            "{name}: expected shape {}, got {shape:?}",
+            wanted.join(" or ")
+        )));
+    }
+    let array: PyReadonlyArray2<'_, f64> = array.extract()?;
+    Ok((array.as_slice()?.to_vec(), shape[1]))
+}
+
+/// Real numbers as a C-contiguous float64 array.
+pub fn as_float64<'py>(
+    py: Python<'py>,
+    name: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = py.import("numpy")?;
+    let array = numpy.call_method1("asarray", (value,))?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    if !["f", "i", "u"].contains(&kind.as_str()) {
+        let dtype = array.getattr("dtype")?.str()?.to_string();
+        return Err(PyTypeError::new_err(format!("{name}: expected real numbers, got dtype {dtype}")));
+    }
+    numpy.call_method1("ascontiguousarray", (array, "float64"))
+}
+
+/// A boolean output buffer as Rust sees it.
+pub type Flags = Buffers<bool, numpy::ndarray::Ix1>;
+
+/// A one-dimensional array from a vector.
+pub fn array1<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyArray1<T>> {
+    PyArray1::from_vec(py, values)
+}

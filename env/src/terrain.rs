@@ -1,0 +1,239 @@
+//! `Terrain`: a heightfield, generated or the user's own.
+
+use crate::arrays::{array1, as_float64, rows};
+use crate::errors::refused;
+use discjump_core::terrain::mission::{Area, Mission};
+use discjump_core::terrain::statistics::Report;
+use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
+use glam::DVec3;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Name, group, value, least, greatest, whether it is inside.
+type AcceptanceRow = (&'static str, String, f64, f64, f64, bool);
+
+/// A heightfield of squares cut in a checkerboard.
+///
+/// Make one with `Terrain.raindance(seed)` or `Terrain.from_heights(heights)`. Coordinates are
+/// metres, x east, y north, z up.
+#[pyclass(module = "discjump", frozen)]
+pub struct Terrain {
+    pub heightfield: Heightfield,
+    /// The same, as queries read it.
+    maps: Maps,
+    mission: Option<Mission>,
+    seed: Option<u64>,
+}
+
+impl Terrain {
+    fn new(heightfield: Heightfield, mission: Option<Mission>, seed: Option<u64>) -> PyResult<Self> {
+        let maps = Maps::new(core::slice::from_ref(&heightfield)).map_err(refused)?;
+        Ok(Self { heightfield, maps, mission, seed })
+    }
+
+    /// Where episodes take place: the mission area, or the whole map.
+    pub fn area(&self) -> Area {
+        if let Some(mission) = &self.mission {
+            return mission.area;
+        }
+        let (min, size) = (self.heightfield.origin(), self.maps.size());
+        Area { min, max: [min[0] + size.x, min[1] + size.y] }
+    }
+
+    fn report(&self) -> PyResult<Report> {
+        Report::of(self.heightfield.heights(), self.mission.as_ref())
+            .map_err(|e| PyValueError::new_err(e.to_string()))
+    }
+
+    /// Ground under world points, in f64.
+    fn ground(&self, name: &str, x: f64, y: f64) -> PyResult<discjump_core::terrain::Ground<f64>> {
+        let (local, _) = self
+            .maps
+            .to_local(DVec3::new(x, y, 0.0))
+            .map_err(|e| PyValueError::new_err(format!("{name}: {e}")))?;
+        Ok(self.maps.surface::<f64>().ground::<f64>(0, local.x, local.y))
+    }
+}
+
+#[pymethods]
+impl Terrain {
+    /// Terrain like Raindance: 257 x 257 heights, 8 m apart, with two flags and a bridge over a gorge.
+    ///
+    /// The same seed gives the same bits everywhere. `repeating=True` lays one 512 m cell 4 x 4, as
+    /// the original does.
+    ///
+    /// >>> import discjump
+    /// >>> terrain = discjump.Terrain.raindance(seed=7)
+    /// >>> terrain.heights.shape
+    /// (257, 257)
+    #[staticmethod]
+    #[pyo3(signature = (seed=0, *, repeating=false))]
+    fn raindance(py: Python<'_>, seed: u64, repeating: bool) -> PyResult<Self> {
+        let made = py
+            .detach(|| raindance::generate(seed, raindance::Options { repeating }))
+            .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+        let side = 257;
+        let field = Heightfield::new(made.heights, side, side, 8.0, [-1024.0, -1024.0], Edge::Tile)
+            .map_err(refused)?;
+        Self::new(field, Some(made.mission), Some(seed))
+    }
+
+    /// Terrain of the user's own heights, in metres, `heights[row y][column x]`, at least 2 x 2.
+    ///
+    /// `origin` is the place of `heights[0, 0]`. `edge` says what lies beyond the rim: "tile" (the map
+    /// again, for ever; its last row and column repeat the first), "clamp" (the rim's heights go on) or
+    /// "void" (nothing).
+    ///
+    /// >>> import discjump, numpy as np
+    /// >>> flat = discjump.Terrain.from_heights(np.zeros((65, 65)), edge="clamp")
+    /// >>> flat.height([[3.0, 4.0]])
+    /// array([0.])
+    #[staticmethod]
+    #[pyo3(signature = (heights, square_size=8.0, origin=(0.0, 0.0), edge="tile"))]
+    fn from_heights(
+        py: Python<'_>,
+        heights: &Bound<'_, PyAny>,
+        square_size: f64,
+        origin: (f64, f64),
+        edge: &str,
+    ) -> PyResult<Self> {
+        let array = as_float64(py, "heights", heights)?;
+        let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+        let &[rows, cols] = shape.as_slice() else {
+            return Err(PyValueError::new_err(format!(
+                "heights: expected shape (rows, columns), got {shape:?}"
+            )));
+        };
+        let array: PyReadonlyArray2<'_, f64> = array.extract()?;
+        let values = array.as_slice()?.to_vec();
+        let edge: Edge = edge.parse().map_err(refused)?;
+        let field =
+            Heightfield::new(values, rows, cols, square_size, [origin.0, origin.1], edge).map_err(refused)?;
+        Self::new(field, None, None)
+    }
+
+    /// Vertex heights, float64 (rows, columns), m: a copy.
+    #[getter]
+    fn heights<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array1(py, self.heightfield.heights().to_vec())
+            .reshape([self.heightfield.rows(), self.heightfield.cols()])
+    }
+
+    /// Side of a square, m.
+    #[getter]
+    fn square_size(&self) -> f64 {
+        self.heightfield.square_size()
+    }
+
+    /// Place of the first vertex, m.
+    #[getter]
+    fn origin(&self) -> (f64, f64) {
+        self.heightfield.origin().into()
+    }
+
+    /// Sides of the map along x and y, m.
+    #[getter]
+    fn size(&self) -> (f64, f64) {
+        self.maps.size().into()
+    }
+
+    /// What lies beyond the rim: "tile", "clamp" or "void".
+    #[getter]
+    fn edge(&self) -> &'static str {
+        self.heightfield.edge().name()
+    }
+
+    /// The seed it was generated from, or None.
+    #[getter]
+    fn seed(&self) -> Option<u64> {
+        self.seed
+    }
+
+    /// Where episodes take place: ((x, y) of the south-west corner, (x, y) of the north-east one), m.
+    #[getter]
+    fn play_area(&self) -> ((f64, f64), (f64, f64)) {
+        let area = self.area();
+        (area.min.into(), area.max.into())
+    }
+
+    /// The mission, or None: a dict of flags (2, 3), bridge_centre (3,), bridge_ends (2, 3),
+    /// bridge_width, area_min (2,), area_max (2,); metres.
+    #[getter]
+    fn mission<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(mission) = &self.mission else { return Ok(None) };
+        let pair = |p: [[f64; 3]; 2]| array1(py, p.concat()).reshape([2, 3]);
+        let dict = PyDict::new(py);
+        dict.set_item("flags", pair(mission.flags)?)?;
+        dict.set_item("bridge_centre", array1(py, mission.bridge.centre.to_vec()))?;
+        dict.set_item("bridge_ends", pair(mission.bridge.ends)?)?;
+        dict.set_item("bridge_width", mission.bridge.width)?;
+        dict.set_item("area_min", array1(py, mission.area.min.to_vec()))?;
+        dict.set_item("area_max", array1(py, mission.area.max.to_vec()))?;
+        Ok(Some(dict))
+    }
+
+    /// Height of the ground at points (n, 2), float64 (n,), m; NaN where there is none.
+    fn height<'py>(&self, py: Python<'py>, xy: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (points, _) = rows(py, "xy", xy, &[2])?;
+        let heights: PyResult<Vec<f64>> = points
+            .chunks_exact(2)
+            .map(|p| {
+                let ground = self.ground("xy", p[0], p[1])?;
+                Ok(if ground.exists { ground.height } else { f64::NAN })
+            })
+            .collect();
+        Ok(array1(py, heights?))
+    }
+
+    /// Unit normal of the ground at points (n, 2), float64 (n, 3); NaN where there is none.
+    fn normal<'py>(&self, py: Python<'py>, xy: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (points, _) = rows(py, "xy", xy, &[2])?;
+        let mut normals = Vec::with_capacity(points.len() / 2 * 3);
+        for p in points.chunks_exact(2) {
+            let ground = self.ground("xy", p[0], p[1])?;
+            let n = ground.normal();
+            normals.extend(if ground.exists { [n.x, n.y, n.z] } else { [f64::NAN; 3] });
+        }
+        array1(py, normals).reshape([points.len() / 2, 3])
+    }
+
+    /// Statistics by name. Needs 257 x 257 (or 256 x 256) heights; those of the mission only where
+    /// there is one.
+    fn statistics(&self) -> PyResult<std::collections::BTreeMap<&'static str, f64>> {
+        Ok(self.report()?.rows.iter().map(|row| (row.name, row.value)).collect())
+    }
+
+    /// The statistics beside the windows of "Raindance-like": a list of (name, group, value, least,
+    /// greatest, whether it is inside).
+    fn acceptance(&self) -> PyResult<Vec<AcceptanceRow>> {
+        let report = self.report()?;
+        let group = |row: &discjump_core::terrain::statistics::Row| format!("{:?}", row.group).to_lowercase();
+        Ok(report.rows.iter().map(|r| (r.name, group(r), r.value, r.min, r.max, r.inside)).collect())
+    }
+
+    /// Whether it is Raindance-like: all core (and mission) statistics inside their windows, at most 2
+    /// of the supporting ones outside, and edges that meet.
+    fn is_raindance_like(&self) -> PyResult<bool> {
+        let report = self.report()?;
+        Ok(if self.mission.is_some() { report.passes() } else { report.passes_without_mission() })
+    }
+
+    /// 32 hexadecimal digits that name the exact bits of grid and heights.
+    fn digest(&self) -> String {
+        self.heightfield.digest()
+    }
+
+    fn __repr__(&self) -> String {
+        let grid = &self.heightfield;
+        let made = self.seed.map_or_else(String::new, |seed| format!("raindance seed {seed}, "));
+        format!(
+            "Terrain({made}{} x {} heights, {} m apart, edge \"{}\")",
+            grid.rows(),
+            grid.cols(),
+            grid.square_size(),
+            grid.edge().name()
+        )
+    }
+}
