@@ -7,12 +7,13 @@ Training, evaluation and replays in different batch shapes rely on it.
 """
 
 import warnings
+from functools import partial
 
 import gymnasium
 import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
-from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
 
 import discjump  # noqa: F401
 from discjump.envs.ski import SkiEnv
@@ -208,3 +209,14 @@ def test_step_before_every_environment_was_reset_is_refused():
     envs.reset(seed=0, options={"reset_mask": np.array([True, False])})
     with pytest.raises(ResetNeeded):
         envs.step(np.tile([1, 1, 0, 0, 3], (2, 1)))
+
+
+def test_workers_of_other_processes_give_the_same_bits():
+    ours = SkiVectorEnv(2, **SHORT)
+    theirs = AsyncVectorEnv([partial(SkiEnv, **SHORT) for _ in range(2)])
+    try:
+        same_bits(ours.reset(seed=3), theirs.reset(seed=3))
+        for action in random_actions(7, 40, 2):
+            same_bits(ours.step(action)[:4], theirs.step(action)[:4])
+    finally:
+        theirs.close()
