@@ -164,6 +164,18 @@ class SkiVecEnv(VecEnv):
             step_infos[index] = info
             self.reset_infos[index] = infos.row(next_ones, k)
 
+    def snapshot(self) -> bytes:
+        """Every environment in the middle of its episode, for `restore`; valid for equal options only."""
+        return self._task.batch.snapshot()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Put every environment back to where it was at a `snapshot`, of this object or of one like it.
+
+        Raises:
+            ValueError: the snapshot is damaged or belongs to other options; nothing has changed then.
+        """
+        self._task.restore(snapshot)
+
     def close(self) -> None:
         """Nothing is held that would need it."""
 

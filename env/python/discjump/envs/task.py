@@ -137,6 +137,14 @@ class SkiTask:
         self.over = ended
         return result
 
+    def restore(self, snapshot: bytes) -> None:
+        """Put the batch back to a snapshot of itself, or of one with the same options."""
+        self.batch.restore(snapshot)
+        self.over[:] = False
+        self._seeded[:] = True
+        if self._camera is not None:
+            self._camera.restart(np.ones(self.num_envs, np.bool_))
+
     def render(self, index: int = 0) -> NDArray[np.uint8]:
         """The command map of one environment, (height, width, 3) uint8."""
         if self._camera is None:

@@ -105,6 +105,14 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         """(num_envs,): which terrain of the pool each episode runs on."""
         return self._task.batch.status()["terrain"].astype(np.int64)
 
+    def state(self) -> NDArray[np.void]:
+        """The players, (num_envs,), a copy: position (m), velocity (m/s), yaw (rad), energy and so on."""
+        return self._task.batch.state()
+
+    def goals(self) -> NDArray[np.float64]:
+        """The beacons on the ground, (num_envs, 3), m."""
+        return self._task.batch.goals()
+
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
