@@ -2,13 +2,13 @@
 
 use crate::arrays::{Buffers, Flags, array1, rows, structured};
 use crate::errors::refused;
+use crate::pools::pool;
 use crate::simulator::{physics, state_fields};
 use crate::terrain::Terrain;
 use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
 use discjump_core::error::InputError;
 use discjump_core::observe::{CLIP, SkiObservation};
 use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, CourseRequest, Reward, SkiTask};
-use discjump_core::terrain::Maps;
 use glam::DVec2;
 use numpy::ndarray::{Ix1, Ix2};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -73,9 +73,9 @@ impl SkiBatch {
             )));
         }
         let (progress, time, arrival) = reward;
-        let fields: Vec<_> = terrains.iter().map(|t| t.heightfield.clone()).collect();
+        let fields: Vec<_> = terrains.iter().map(|t| &t.heightfield).collect();
         let setup = SkiEnvironments {
-            maps: Maps::new(&fields).map_err(refused)?,
+            maps: pool(&fields)?,
             areas: terrains.iter().map(|t| t.area()).collect(),
             count: num_envs,
             fidelity,

@@ -1,8 +1,10 @@
 """Terrains as environments use them: cached, copied, pickled."""
 
 import copy
+import os
 import pickle
 import warnings
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 
 import discjump
 from discjump import terrains
+from discjump.envs.ski import SkiEnv
 
 from .play import same_bits
 
@@ -62,3 +65,16 @@ def test_terrains_of_different_sizes_are_refused():
     small = discjump.Terrain.from_heights(np.zeros((65, 65)))
     with pytest.raises(ValueError, match="terrains"):
         gymnasium.make("discjump/Ski-v0", terrains=[small, discjump.Terrain.raindance(0)])
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs Linux's /proc")
+def test_environments_share_the_heights_of_their_pool():
+    # A pool of 16 takes 13 MB; environments made one by one (SyncVectorEnv, DummyVecEnv) must not each have it.
+    def resident():
+        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") / 2**20
+
+    first = SkiEnv()
+    before = resident()
+    more = [SkiEnv() for _ in range(20)]
+    assert resident() - before < 40
+    same_bits(first.reset(seed=1)[0], more[-1].reset(seed=1)[0])

@@ -18,6 +18,7 @@ use crate::terrain::Maps;
 use crate::terrain::mission::Area;
 use glam::{DVec2, DVec3, IVec2};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 mod episode;
 mod step;
@@ -80,8 +81,8 @@ pub struct Status {
 /// Everything that a batch of ski environments is made from.
 #[derive(Debug)]
 pub struct SkiEnvironments {
-    /// The pool of maps.
-    pub maps: Maps,
+    /// The pool of maps; batches may share one.
+    pub maps: Arc<Maps>,
     /// The area of each map that episodes are drawn in.
     pub areas: Vec<Area>,
     /// How many environments.

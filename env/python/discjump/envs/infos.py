@@ -67,8 +67,9 @@ def spread(columns: Columns, rows: NDArray[np.int64], num_envs: int) -> Columns:
 def masked(columns: Columns, mask: NDArray[np.bool_]) -> dict[str, Any]:
     """Columns with gymnasium's `_key` masks; rows outside `mask` are zero."""
     info: dict[str, Any] = {}
+    partial = not mask.all()
     for key, column in columns.items():
-        info[key] = np.where(mask, column, np.zeros((), column.dtype))
+        info[key] = np.where(mask, column, np.zeros((), column.dtype)) if partial else column
         info[f"_{key}"] = mask.copy()
     return info
 
