@@ -167,8 +167,8 @@ def _evaluate(
     with_baselines: bool = True,
     threads: int | None = None,
 ) -> None:
+    from discjump_training import baselines, picture, report
     from discjump_training import evaluate as judging
-    from discjump_training import picture, report
     from discjump_training.model import write_atomically
 
     course = COURSES[course_name]
@@ -187,7 +187,8 @@ def _evaluate(
     write_atomically(folder / "evaluation.md", report.markdown(course, count, judged, compared).encode())
     curves = {name: curve for name in policies if (curve := _run_folder(name) / CURVE).is_file()}
     drawn = [one for one in judged if one.name != "random"] or judged
-    picture.draw(folder / "evaluation.png", course, drawn, curves)
+    levels = {name: judging.level(name, threads) for name in baselines.PARAMETERS} if curves else {}
+    picture.draw(folder / "evaluation.png", course, drawn, curves, levels)
 
     report.show(Console(width=None if sys.stdout.isatty() else 160), course, count, judged, compared)
     for kind, suffix in (("Figures", "json"), ("Table", "md"), ("Picture", "png")):
