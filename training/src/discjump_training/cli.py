@@ -77,7 +77,15 @@ def ski(
         changes += [f"ppo.steps={steps}"] if steps else []
         changes += [f"rollout.threads={threads}"] if threads else []
         if resume is not None:
-            _refuse_with_resume(source=source != "ski", out=out is not None, seed=seed is not None)
+            _refuse_with_resume(
+                {
+                    "--recipe": source != "ski",
+                    "--set": bool(overrides),
+                    "--out": out is not None,
+                    "--seed": seed is not None,
+                    "--smoke": smoke,
+                }
+            )
         recipe = Recipe.load(resume / "recipe.toml" if resume else source, tuple(changes))
         if show_recipe:
             click.echo(recipe.to_toml(help=True), nl=False)
@@ -117,12 +125,11 @@ def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool
     )
 
 
-def _refuse_with_resume(**given: bool) -> None:
-    names = {"source": "--recipe", "out": "--out", "seed": "--seed"}
+def _refuse_with_resume(given: dict[str, bool]) -> None:
     for name, is_given in given.items():
         if is_given:
             raise click.UsageError(
-                f"--resume goes on with the run in its folder: {names[name]} does not fit with it"
+                f"--resume goes on with the run in its folder: {name} does not fit with it"
             )
 
 
