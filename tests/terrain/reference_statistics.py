@@ -160,7 +160,9 @@ def legs(h: Array) -> dict[str, float]:
 def leg_drops(profile: list[float], reversal: float = 3.0) -> list[float]:
     """Drops from a top to the next bottom of a profile that begins and ends at its highest point."""
     turns = turning_points(profile, reversal)
-    return [top - bottom for top, bottom in zip(turns[::2], turns[1::2], strict=False) if top - bottom >= reversal]
+    return [
+        top - bottom for top, bottom in zip(turns[::2], turns[1::2], strict=False) if top - bottom >= reversal
+    ]
 
 
 def turning_points(profile: list[float], reversal: float) -> list[float]:
@@ -274,7 +276,8 @@ def mission_statistics(
         float(np.degrees(np.arctan(np.abs(side[24:] - side[:-24]).max() / 24)))
         for side in (gorge[: low + 1], gorge[low:])
     ]
-    metres = np.arange(0.0, np.floor(distance) + 1)
+    # A distance that falls short of whole metres by rounding alone counts as whole.
+    metres = np.arange(0.0, np.floor(distance + 1e-6) + 1)
     profile = line(f0, f1, metres / distance)
     sight = flag_ground[0] + 17.6 + (flag_ground[1] - flag_ground[0]) * metres / distance
     tops = [t for t in profile_tops(profile.tolist(), 3.0) if 8 < t < distance - 8]
