@@ -287,7 +287,7 @@ impl SkiBatch {
         let mut bytes = Vec::new();
         for s in self.batch.status() {
             for x in [s.distance, s.speed, s.time] {
-                bytes.extend((x as f32).to_le_bytes());
+                bytes.extend(x.to_le_bytes());
             }
             bytes.push(u8::from(s.outside));
             bytes.extend((s.terrain as i32).to_le_bytes());
@@ -390,9 +390,9 @@ const OUTCOME: [(&str, &str, usize); 17] = [
 
 /// The dtype of `status()`.
 const STATUS: [(&str, &str, usize); 5] = [
-    ("distance", "<f4", 1),
-    ("speed", "<f4", 1),
-    ("time", "<f4", 1),
+    ("distance", "<f8", 1),
+    ("speed", "<f8", 1),
+    ("time", "<f8", 1),
     ("outside", "?", 1),
     ("terrain", "<i4", 1),
 ];

@@ -242,3 +242,22 @@ def test_without_stable_baselines3_the_package_works_and_the_adapter_says_what_t
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
     assert "pip install 'discjump[sb3]'" in run.stdout, run.stderr
+
+
+def test_a_snapshot_brings_every_environment_back():
+    envs, twin = make(5), make(5, seed=99)
+    envs.reset()
+    twin.reset()
+    actions = random_actions(2, 80, 5)
+    for action in actions[:40]:
+        envs.step(action)
+    snapshot = envs.snapshot()
+    tail = [envs.step(action)[:3] for action in actions[40:]]
+    for one in (envs, twin):
+        one.restore(snapshot)
+        for action, expected in zip(actions[40:], tail, strict=True):
+            same_bits(one.step(action)[:3], expected)
+    with pytest.raises(ValueError, match="snapshot"):
+        twin.restore(snapshot[:-3])
+    with pytest.raises(ValueError, match="snapshot"):
+        make(4).restore(snapshot)

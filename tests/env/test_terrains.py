@@ -69,7 +69,7 @@ def test_terrains_of_different_sizes_are_refused():
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs Linux's /proc")
 def test_environments_share_the_heights_of_their_pool():
-    # A pool of 16 takes 13 MB; environments made one by one (SyncVectorEnv, DummyVecEnv) must not each have it.
+    # A pool of 16 takes 13 MB; environments made one by one must not each have it.
     def resident():
         return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") / 2**20
 
@@ -78,3 +78,34 @@ def test_environments_share_the_heights_of_their_pool():
     more = [SkiEnv() for _ in range(20)]
     assert resident() - before < 40
     same_bits(first.reset(seed=1)[0], more[-1].reset(seed=1)[0])
+
+
+BAD_HEIGHTS = [
+    ({"heights": np.full((4, 4), np.nan)}, ValueError, "heights"),
+    ({"heights": np.where(np.eye(4) > 0, np.inf, 0.0)}, ValueError, "heights"),
+    ({"heights": np.zeros((1, 5))}, ValueError, "heights"),
+    ({"heights": np.zeros((5, 1))}, ValueError, "heights"),
+    ({"heights": np.zeros(5)}, ValueError, "heights"),
+    ({"heights": np.zeros((2, 2, 2))}, ValueError, "heights"),
+    ({"heights": np.full((4, 4), 10_001.0)}, ValueError, "heights"),
+    ({"heights": "hills"}, (TypeError, ValueError), "heights"),
+    ({"heights": np.zeros((4, 4), complex)}, (TypeError, ValueError), "heights"),
+    ({"square_size": 0.0}, ValueError, "square_size"),
+    ({"square_size": -8.0}, ValueError, "square_size"),
+    ({"square_size": np.nan}, ValueError, "square_size"),
+    ({"origin": (np.nan, 0.0)}, ValueError, "origin"),
+    ({"edge": "mirror"}, ValueError, "edge"),
+    ({"heights": np.arange(16.0).reshape(4, 4), "edge": "tile"}, ValueError, "tile"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "kind", "message"), BAD_HEIGHTS)
+def test_bad_heights(arguments, kind, message):
+    with pytest.raises(kind, match=message):
+        discjump.Terrain.from_heights(**({"heights": np.zeros((4, 4))} | arguments))
+
+
+@pytest.mark.parametrize("seed", [-1, 2**64, 1.5, "one"])
+def test_bad_seeds(seed):
+    with pytest.raises((TypeError, ValueError, OverflowError)):
+        discjump.Terrain.raindance(seed)

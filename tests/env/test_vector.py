@@ -7,12 +7,13 @@ Training, evaluation and replays in different batch shapes rely on it.
 """
 
 import warnings
+from functools import partial
 
 import gymnasium
 import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
-from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
 
 import discjump  # noqa: F401
 from discjump.envs.ski import SkiEnv
@@ -165,6 +166,24 @@ def test_each_environment_can_have_its_own_place():
     np.testing.assert_array_equal(envs.terrain_index, [1, 0, 1])
 
 
+def test_states_and_beacons_are_where_the_options_put_them():
+    envs, env = SkiVectorEnv(2, terrain_seeds=[0]), SkiEnv(terrain_seeds=[0])
+    place = {"start": (12.5, -30.0), "goal": (100.0, 200.0)}
+    envs.reset(seed=0, options=place)
+    env.reset(seed=0, options=place)
+    for positions in (envs.state()["position"][1], env.state()["position"]):
+        np.testing.assert_allclose(positions[:2], (12.5, -30.0), atol=1e-4)
+        # Feet on the ground, at a 32-bit number's distance from it.
+        np.testing.assert_allclose(positions[2], env.terrain.height([[12.5, -30.0]])[0], atol=1e-4)
+    for goal in (envs.goals()[1], env.goal()):
+        np.testing.assert_allclose(goal, (100.0, 200.0, env.terrain.height([[100.0, 200.0]])[0]), atol=1e-4)
+    before = envs.state()
+    copied = before.copy()
+    envs.step(random_actions(0, 1, 2)[0])
+    assert before.tobytes() == copied.tobytes()
+    assert envs.state().tobytes() != before.tobytes()
+
+
 def test_options_belong_to_the_caller():
     envs = SkiVectorEnv(2, **SHORT)
     options = {"reset_mask": np.array([True, True])}
@@ -208,3 +227,14 @@ def test_step_before_every_environment_was_reset_is_refused():
     envs.reset(seed=0, options={"reset_mask": np.array([True, False])})
     with pytest.raises(ResetNeeded):
         envs.step(np.tile([1, 1, 0, 0, 3], (2, 1)))
+
+
+def test_workers_of_other_processes_give_the_same_bits():
+    ours = SkiVectorEnv(2, **SHORT)
+    theirs = AsyncVectorEnv([partial(SkiEnv, **SHORT) for _ in range(2)])
+    try:
+        same_bits(ours.reset(seed=3), theirs.reset(seed=3))
+        for action in random_actions(7, 40, 2):
+            same_bits(ours.step(action)[:4], theirs.step(action)[:4])
+    finally:
+        theirs.close()

@@ -81,7 +81,9 @@ def test_scripts_read_by_name_whatever_the_order():
             "beacon_direction": [0.0, 1.0],
             "lateral_speed": 4.0,
             "energy": 33.0,
-            "fan": [1.0, 2.0, 3.0, 4.0, 5.0],
+            "height": 2.0,
+            # Rise over range from the ground, 2 m below the feet: 1 to 5 m above the feet.
+            "fan": list((np.arange(1.0, 6.0) + 2.0) / baselines.RANGES),
         }
         full = {name: values.get(name, 0.0) for name in order}
         layout, observation = layout_and_observation(**full)

@@ -53,6 +53,7 @@ def test_ctrl_c_says_how_to_go_on_and_going_on_works(tmp_path, monkeypatch):
         (["--resume", "nowhere"], "cannot read the recipe nowhere/recipe.toml", 1),
         (["--resume", "x", "--out", "y"], "--out does not fit with it", 2),
         (["--resume", "x", "--seed", "1"], "--seed does not fit with it", 2),
+        (["--resume", "x", "--set", "ppo.gamma=0.9"], "--set does not fit with it", 2),
         (["--seed", "4001"], "4001 is not in the range 0<=x<=4000", 2),
         (["--set", "environment.fidelity='imaginary'"], "fidelity", 1),
     ],

@@ -6,7 +6,7 @@ import signal
 import pytest
 import torch
 
-from discjump_training import model, train
+from discjump_training import model, runs, train
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.recipe import Recipe
 
@@ -31,7 +31,7 @@ def parameters(folder):
 
 
 def optimiser(folder):
-    return model.load(train.newest_checkpoint(folder)).policy.optimizer.state_dict()
+    return model.load(runs.newest_checkpoint(folder)).policy.optimizer.state_dict()
 
 
 def curve(folder):
@@ -82,7 +82,7 @@ def test_a_second_ctrl_c_stops_at_once(tiny, tmp_path, monkeypatch):
     stop_after(monkeypatch, steps=24, times=2)
     with pytest.raises(KeyboardInterrupt):
         train.train(tiny, 0, tmp_path / "run", quiet=True)
-    assert [path.name for path in train.checkpoints(tmp_path / "run")] == ["000000000256.zip"]
+    assert [path.name for path in runs.checkpoints(tmp_path / "run")] == ["000000000256.zip"]
     assert signal.getsignal(signal.SIGINT) is before
 
 
@@ -92,7 +92,7 @@ def test_what_a_run_leaves_behind(tiny, tmp_path):
     assert {"recipe.toml", "run.json", "curve.csv", "best.zip", "final.zip"} <= {
         path.name for path in folder.iterdir()
     }
-    assert [path.name for path in train.checkpoints(folder)] == ["000000000768.zip", "000000001024.zip"]
+    assert [path.name for path in runs.checkpoints(folder)] == ["000000000768.zip", "000000001024.zip"]
     assert not list(folder.rglob("*.part"))
     assert list((folder / "tensorboard").glob("events*"))
     assert Recipe.load(folder / "recipe.toml") == tiny
@@ -134,7 +134,7 @@ def test_a_finished_run_is_not_trained_again(tiny, tmp_path):
 def test_a_damaged_checkpoint_is_refused(tiny, tmp_path):
     folder = tmp_path / "run"
     train.train(tiny, 0, folder, quiet=True)
-    newest = train.newest_checkpoint(folder)
+    newest = runs.newest_checkpoint(folder)
     newest.write_bytes(newest.read_bytes()[:-500])
     with pytest.raises(ModelError, match=r"is not a (readable|whole) model file"):
         train.train(tiny.with_steps(1_280), 0, folder, resume=True, quiet=True)

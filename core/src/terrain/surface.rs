@@ -103,19 +103,20 @@ impl<'a, T: Scalar> Surface<'a, T> {
         }
     }
 
-    /// Square indices of a local point, counted from the centre vertex.
+    /// Square indices of a local point, counted from the centre vertex. Beyond [`FARTHEST`] squares,
+    /// where nothing tiles, every place counts as that one: the ground is the same all the way.
     #[inline(always)]
     pub(super) fn square_of<R: Real<Scalar = T>>(&self, x: R, y: R) -> (R::Int, R::Int) {
         let inverse = R::splat(self.inverse);
-        ((x * inverse).floor_int(), (y * inverse).floor_int())
+        let index = |x: R| (x * inverse).floor_int().clamp(-FARTHEST, FARTHEST);
+        (index(x), index(y))
     }
 
     /// The corners of a square of a map.
     #[inline(always)]
     pub(super) fn square<R: Real<Scalar = T>>(&self, map: R::Int, i: R::Int, j: R::Int) -> Square<R> {
-        let half = 1 << 30;
-        let i = i.clamp(-half, half) + R::Int::splat(self.centre[0]);
-        let j = j.clamp(-half, half) + R::Int::splat(self.centre[1]);
+        let i = i.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[0]);
+        let j = j.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[1]);
         let (last_i, last_j) = (self.cols - 2, self.rows - 2);
         let one = R::Int::splat(1);
         let mut ground = R::Mask::splat(true);
@@ -215,5 +216,8 @@ impl<'a, T: Scalar> Surface<'a, T> {
     }
 }
 
+/// Squares from the centre beyond which there is no telling them apart: a sweep of any length from
+/// there, and the sum of a square's two indices, still count within an `i32`.
+const FARTHEST: i32 = 1 << 29;
 /// Tile counters stop here, two thousand million metres and more from the first tile.
 const MAX_TILES: i32 = 1 << 30;

@@ -83,9 +83,12 @@ impl<T: Scalar> Surface<'_, T> {
         let size = R::splat(self.square);
         let inverse = self.inverse::<R>();
         let (mut i, mut j) = self.square_of(start.x, start.y);
-        // The start relative to the current square's corner.
-        let mut x = start.x - R::from_int(i) * size;
-        let mut y = start.y - R::from_int(j) * size;
+        // The start relative to the current square's corner. Rounding can leave it a hair outside, and
+        // beyond the farthest square it is far outside: the walk over squares must not make up for it.
+        let (first_i, first_j) = (i, j);
+        let first_x = (start.x - R::from_int(i) * size).max(zero).min(size);
+        let first_y = (start.y - R::from_int(j) * size).max(zero).min(size);
+        let (mut x, mut y) = (first_x, first_y);
         let (east, west) = (zero.lt(path.x), path.x.lt(zero));
         let (north, south) = (zero.lt(path.y), path.y.lt(zero));
         let (step_i, step_j) = (
@@ -134,8 +137,9 @@ impl<T: Scalar> Surface<'_, T> {
             let cross_y = to_y.le(to_x);
             i = R::Int::select(cross_x, i + step_i, i);
             j = R::Int::select(cross_y, j + step_j, j);
-            x = R::select(cross_x, x - R::from_int(step_i) * size, x);
-            y = R::select(cross_y, y - R::from_int(step_j) * size, y);
+            // From the first square anew: a sum of steps would drift, and at last stand still.
+            x = first_x - R::from_int(i - first_i) * size;
+            y = first_y - R::from_int(j - first_j) * size;
             from = to;
         }
         Hit { hit: found, fraction, normal: unit_normal(slope_x, slope_y) }

@@ -36,9 +36,7 @@ Step = Callable[[NDArray[Any]], object]
     help="Length of a repeat, s.",
 )
 @click.option("--quick", is_flag=True, help="3 repeats of 0.05 s: whether it runs, not how fast.")
-@click.option(
-    "--threads", type=click.IntRange(1, 256), help="Simulator threads; one per core if absent."
-)
+@click.option("--threads", type=click.IntRange(1, 256), help="Simulator threads; one per core if absent.")
 @click.option(
     "--out",
     type=click.Path(dir_okay=False, path_type=Path),

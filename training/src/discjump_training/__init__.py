@@ -3,6 +3,7 @@
     cli         `discjump train` and `discjump evaluate`
     recipe      what a training run does, typed; recipes/ holds those that ship
     train       PPO from top to bottom: learning, checkpoints, resuming
+    runs        the folder of a run
     tune        search for the constants of the scripted baselines
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
     intervals   bootstrap and exact intervals

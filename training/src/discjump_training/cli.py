@@ -77,7 +77,15 @@ def ski(
         changes += [f"ppo.steps={steps}"] if steps else []
         changes += [f"rollout.threads={threads}"] if threads else []
         if resume is not None:
-            _refuse_with_resume(source=source != "ski", out=out is not None, seed=seed is not None)
+            _refuse_with_resume(
+                {
+                    "--recipe": source != "ski",
+                    "--set": bool(overrides),
+                    "--out": out is not None,
+                    "--seed": seed is not None,
+                    "--smoke": smoke,
+                }
+            )
         recipe = Recipe.load(resume / "recipe.toml" if resume else source, tuple(changes))
         if show_recipe:
             click.echo(recipe.to_toml(help=True), nl=False)
@@ -117,12 +125,11 @@ def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool
     )
 
 
-def _refuse_with_resume(**given: bool) -> None:
-    names = {"source": "--recipe", "out": "--out", "seed": "--seed"}
+def _refuse_with_resume(given: dict[str, bool]) -> None:
     for name, is_given in given.items():
         if is_given:
             raise click.UsageError(
-                f"--resume goes on with the run in its folder: {names[name]} does not fit with it"
+                f"--resume goes on with the run in its folder: {name} does not fit with it"
             )
 
 
@@ -167,8 +174,8 @@ def _evaluate(
     with_baselines: bool = True,
     threads: int | None = None,
 ) -> None:
+    from discjump_training import baselines, picture, report
     from discjump_training import evaluate as judging
-    from discjump_training import picture, report
     from discjump_training.model import write_atomically
 
     course = COURSES[course_name]
@@ -187,7 +194,8 @@ def _evaluate(
     write_atomically(folder / "evaluation.md", report.markdown(course, count, judged, compared).encode())
     curves = {name: curve for name in policies if (curve := _run_folder(name) / CURVE).is_file()}
     drawn = [one for one in judged if one.name != "random"] or judged
-    picture.draw(folder / "evaluation.png", course, drawn, curves)
+    levels = {name: judging.level(name, threads) for name in baselines.PARAMETERS} if curves else {}
+    picture.draw(folder / "evaluation.png", course, drawn, curves, levels)
 
     report.show(Console(width=None if sys.stdout.isatty() else 160), course, count, judged, compared)
     for kind, suffix in (("Figures", "json"), ("Table", "md"), ("Picture", "png")):

@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from discjump_training import baselines, intervals, model
-from discjump_training.courses import Course
+from discjump_training.courses import COURSES, Course
 from discjump_training.episodes import FAILURE_SECONDS, Episodes, Stage
 from discjump_training.errors import ModelError
 from discjump_training.intervals import Estimate
 from discjump_training.policy import Policy
+from discjump_training.recipe import Watch
 
 #: Figures of one policy: key, heading, unit, digits.
 FIGURES = (
@@ -114,6 +115,13 @@ def judge(
         for key, *_ in FIGURES
     }
     return Judged(policy.name, policy.note, is_model, played, figures)
+
+
+def level(name: str, threads: int | None) -> float:
+    """Mean time of a baseline on the episodes that learning curves are measured on, s."""
+    watch = Watch()
+    stage = Stage(COURSES[watch.evaluate_course], watch.evaluate_episodes, baselines.OPTIONS, threads)
+    return float(stage.play(baselines.make(name, stage)).seconds.mean())
 
 
 def compare(judged: list[Judged]) -> list[Comparison]:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LightSource, Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from discjump import Terrain
 from discjump_training.courses import Course
@@ -24,17 +25,21 @@ ARRIVAL = 8.0
 
 _SPEEDS = Normalize(0.0, TOP_SPEED)
 _COLOURS = "plasma"
-_STYLES = ("solid", "dashed", "dotted", "dashdot")
+#: Rims of the paths, by policy: the inside shows the speed.
+_RIMS = ("black", "deepskyblue", "limegreen", "white")
 
 
-def draw(path: Path, course: Course, judged: list[Judged], curves: dict[str, Path]) -> None:
+def draw(
+    path: Path, course: Course, judged: list[Judged], curves: dict[str, Path], levels: dict[str, float]
+) -> None:
     """Draw the picture.
 
     Args:
         path: PNG to write.
         course: whose terrains were played.
-        judged: policies with recorded paths, the first of them drawn with a solid line.
+        judged: policies with recorded paths, the models first.
         curves: learning curves (CSV) by name of the model; may be empty.
+        levels: mean time of each script on the course of the learning curves, s.
     """
     episodes = sorted(judged[0].episodes.paths)
     columns = max(len(episodes), 1)
@@ -47,7 +52,7 @@ def draw(path: Path, course: Course, judged: list[Judged], curves: dict[str, Pat
         colours = matplotlib.cm.ScalarMappable(_SPEEDS, _COLOURS)
         figure.colorbar(colours, ax=maps, label="speed, m/s", location="right", fraction=0.02, pad=0.01)
     if curves:
-        learning_curve(figure.add_subplot(grid[1, :]), curves, judged)
+        learning_curve(figure.add_subplot(grid[1, :]), curves, levels)
     figure.savefig(path, dpi=110)
 
 
@@ -62,18 +67,17 @@ def command_map(axes: Axes, course: Course, judged: list[Judged], episode: int) 
     seed = course.terrain_seeds[int(first.terrain[episode])]
     ground(axes, Terrain.raindance(seed), corner, side)
 
-    for one, style in zip(judged, _STYLES, strict=False):
+    # The first policy is drawn last, on top of the others.
+    for one, rim in reversed(list(zip(judged, _RIMS, strict=False))):
         path = one.episodes.paths[episode]
         points = path[:, :2]
-        # A dark line below keeps pale colours legible on pale ground.
-        axes.plot(*points.T, color="black", linewidth=3.4, alpha=0.35, linestyle=style)
+        axes.plot(*points.T, color=rim, linewidth=4.5, solid_capstyle="round", label=one.name)
         segments = np.stack([points[:-1], points[1:]], axis=1)
-        lines = LineCollection(list(segments), cmap=_COLOURS, norm=_SPEEDS, linewidth=2.0)
+        lines = LineCollection(list(segments), cmap=_COLOURS, norm=_SPEEDS, linewidth=2.4, zorder=2.0)
         lines.set_array(path[1:, 3])
         axes.add_collection(lines)
-    axes.plot(
-        *judged[0].episodes.paths[episode][0, :2], "o", color="white", markeredgecolor="black", label="start"
-    )
+    start = first.paths[episode][0, :2]
+    axes.plot(*start, "o", color="white", markeredgecolor="black", label="start")
     axes.add_patch(
         matplotlib.patches.Circle(tuple(goal[:2]), ARRIVAL, fill=False, color="red", linewidth=1.5)
     )
@@ -107,10 +111,8 @@ def ground(axes: Axes, terrain: Terrain, corner: Floats, side: float, pixels: in
     axes.set_aspect("equal")
 
 
-def learning_curve(axes: Axes, curves: dict[str, Path], judged: list[Judged]) -> None:
-    """Time to the beacon on the validation course over the decisions trained for, with the baselines'
-    times.
-    """
+def learning_curve(axes: Axes, curves: dict[str, Path], levels: dict[str, float]) -> None:
+    """Time to the beacon on the validation course over the decisions trained for, and the scripts' there."""
     for name, path in curves.items():
         with path.open(newline="") as file:
             table = list(csv.DictReader(file))
@@ -119,13 +121,16 @@ def learning_curve(axes: Axes, curves: dict[str, Path], judged: list[Judged]) ->
             steps,
             [float(row["validation_seconds"]) for row in table],
             marker=".",
-            label=f"{name}, validation",
+            label=name,
         )
-    for one, style in zip((one for one in judged if not one.is_model), _STYLES[1:] * 2, strict=False):
-        axes.axhline(
-            one.figures["seconds"].value, color="gray", linestyle=style, label=f"{one.name}, this course"
-        )
+    for (name, seconds), style in zip(levels.items(), ("dashed", "dotted", "dashdot"), strict=False):
+        axes.axhline(seconds, color="gray", linestyle=style, label=name)
     axes.set_xlabel("decisions, millions")
-    axes.set_ylabel("time to beacon, s (failures 60)")
+    axes.set_ylabel("time to beacon on the validation course, s")
+    # The first minutes fall from 60 s, the rest is a matter of tenths: only a logarithm shows both.
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(FixedLocator([15, 16, 17, 18, 19, 20, 22, 25, 30, 40, 60]))
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.grid(alpha=0.3)
     axes.legend(fontsize=8)

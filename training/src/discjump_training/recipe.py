@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from discjump.envs.options import FAN_BEARINGS, FAN_RANGES
 from discjump_training.courses import COURSES
 from discjump_training.errors import RecipeError
 
@@ -41,11 +42,11 @@ class Environment(Section):
     fidelity: str = Field("authentic", description="fidelity tier of the physics")
     frame_skip: Count = Field(4, description="ticks of 32 ms per decision")
     fan_bearings: list[float] = Field(
-        [0.0, 15.0, -15.0, 34.0, -34.0, 60.0, -60.0, 97.0, -97.0],
+        list(FAN_BEARINGS),
         description="bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan",
     )
     fan_ranges: list[float] = Field(
-        [6.0, 16.0, 35.0, 70.0, 120.0],
+        list(FAN_RANGES),
         description="ranges of the fan of terrain heights, metres; empty: no fan",
     )
     landing: bool = Field(True, description="observe features of the ballistic landing")

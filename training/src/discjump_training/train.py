@@ -1,29 +1,18 @@
 """Train a ski agent with stable-baselines3's PPO: the whole of it, from top to bottom.
 
-A run lives in one folder:
-
-    recipe.toml     what was asked for
-    run.json        seed, versions, machine, how far it came and where the time went
-    curve.csv       the learning curve, a row per evaluation
-    best.zip        the model that was fastest on the validation course
-    final.zip       the model at the end
-    checkpoints/    everything needed to go on: model, optimiser, episodes under way, random generators
-    tensorboard/    for `tensorboard --logdir`
+Environments and a model are made (or loaded), `PPO.learn` alternates between collecting experience and
+updating, and a `Watcher` looks in between the two: it evaluates, saves and stops. What a run leaves behind
+is described in `runs`.
 
 An interrupted run that is resumed goes through the same numbers as one that never stopped.
 """
 
 import base64
-import csv
-import io
-import json
-import os
-import platform
 import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
 from types import FrameType
@@ -40,64 +29,14 @@ from stable_baselines3.common.vec_env.base_vec_env import VecEnvObs, VecEnvStepR
 from tqdm import tqdm
 
 import discjump.sb3
-from discjump_training import episodes, model
+from discjump_training import episodes, model, runs
 from discjump_training.courses import COURSES, run_seed
 from discjump_training.errors import RecipeError, TrainingError
 from discjump_training.recipe import Recipe
+from discjump_training.runs import Point, Progress
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 ENVIRONMENT_ENTRY = "environment.snapshot"
-
-
-@dataclass
-class Point:
-    """A row of the learning curve."""
-
-    steps: int
-    training_seconds: float
-    validation_success: float
-    validation_seconds: float
-    training_success: float
-    training_return: float
-    learning_rate: float
-
-
-@dataclass
-class Clock:
-    """Seconds spent since the run began, by what on."""
-
-    environment: float = 0.0
-    policy: float = 0.0
-    update: float = 0.0
-    evaluation: float = 0.0
-
-    @property
-    def training(self) -> float:
-        """All but evaluation."""
-        return self.environment + self.policy + self.update
-
-    def share(self, part: str) -> float:
-        """Share of the training time that went into `environment`, `policy` or `update`."""
-        return float(getattr(self, part)) / self.training
-
-
-@dataclass
-class Progress:
-    """What a run remembers beyond the model: it goes into every checkpoint."""
-
-    seed: int
-    curve: list[Point] = field(default_factory=list)
-    clock: Clock = field(default_factory=Clock)
-    best_seconds: float = float("inf")
-    evaluated_at: int = 0
-    checkpointed_at: int = 0
-
-    @classmethod
-    def from_dict(cls, data: dict[str, Any]) -> "Progress":
-        """The inverse of `dataclasses.asdict`."""
-        return cls(
-            **{**data, "curve": [Point(**row) for row in data["curve"]], "clock": Clock(**data["clock"])}
-        )
 
 
 @dataclass(frozen=True)
@@ -143,9 +82,9 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
     Raises:
         TrainingError: if the folder is taken, there is nothing to resume, or everything is done already.
     """
-    checkpoint = newest_checkpoint(folder) if resume else None
+    checkpoint = runs.newest_checkpoint(folder) if resume else None
     if checkpoint is None:
-        check_is_free(folder)
+        runs.check_is_free(folder)
         progress = Progress(seed)
     else:
         progress = Progress.from_dict(model.about(checkpoint)["progress"])
@@ -325,7 +264,7 @@ class Watcher(BaseCallback):
             learning_rate=float(self.model.policy.optimizer.param_groups[0]["lr"]),
         )
         self.progress.curve.append(point)
-        write_curve(self.folder / "curve.csv", self.progress.curve)
+        runs.write_curve(self.folder / "curve.csv", self.progress.curve)
         self.logger.record("validation/success", point.validation_success)
         self.logger.record("validation/seconds", point.validation_seconds)
         if point.validation_seconds < self.progress.best_seconds:
@@ -349,11 +288,11 @@ class Watcher(BaseCallback):
         snapshot = self.env.inner.snapshot()
         store = self.folder / "checkpoints"
         model.save(self._ppo, store / f"{self.steps:012d}.zip", about, {ENVIRONMENT_ENTRY: snapshot})
-        for old in checkpoints(self.folder)[: -self.recipe.watch.keep_checkpoints]:
+        for old in runs.checkpoints(self.folder)[: -self.recipe.watch.keep_checkpoints]:
             old.unlink()
         if self.finished:
             model.save(self._ppo, self.folder / "final.zip", self._about())
-        write_run(self.folder, self.recipe, self.progress, self.steps)
+        runs.write_run(self.folder, self.recipe, self.progress, self.steps)
 
     def _about(self) -> dict[str, Any]:
         return {
@@ -383,63 +322,6 @@ def stopping_gently(watch: Watcher) -> Iterator[None]:
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
-
-
-def check_is_free(folder: Path) -> None:
-    """Refuse a folder that is not empty.
-
-    Raises:
-        TrainingError: if it holds something already.
-    """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        hint = f"go on with --resume {folder}, or " if checkpoints(folder) else ""
-        raise TrainingError(f"{folder} exists and is not an empty folder: {hint}choose another --out")
-
-
-def checkpoints(folder: Path) -> list[Path]:
-    """Checkpoints of a run, oldest first."""
-    return sorted((folder / "checkpoints").glob("[0-9]*.zip"))
-
-
-def newest_checkpoint(folder: Path) -> Path:
-    """The checkpoint to go on from.
-
-    Raises:
-        TrainingError: if there is none.
-    """
-    found = checkpoints(folder)
-    if not found:
-        raise TrainingError(f"nothing to resume: there is no checkpoint in {folder / 'checkpoints'}")
-    return found[-1]
-
-
-def write_curve(path: Path, curve: list[Point]) -> None:
-    """The learning curve as CSV."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, [f.name for f in fields(Point)])
-    writer.writeheader()
-    writer.writerows(asdict(point) for point in curve)
-    model.write_atomically(path, text.getvalue().encode())
-
-
-def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> None:
-    """What was run, on what, how far, and where the time went."""
-    clock = progress.clock
-    run = {
-        "seed": progress.seed,
-        "steps": steps,
-        "finished": steps >= recipe.ppo.steps,
-        "steps_per_second": steps / clock.training,
-        "seconds": asdict(clock),
-        "environment_share": clock.share("environment"),
-        "best_validation_seconds": progress.best_seconds,
-        "versions": {
-            name: metadata.version(name) for name in ("discjump", "stable-baselines3", "torch", "numpy")
-        },
-        "python": platform.python_version(),
-        "machine": f"{platform.machine()}, {os.cpu_count()} cores",
-    }
-    model.write_atomically(folder / "run.json", (json.dumps(run, indent=2) + "\n").encode())
 
 
 def _mean(values: Any) -> float:

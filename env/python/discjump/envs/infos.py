@@ -84,5 +84,5 @@ def row(columns: Columns, index: int = 0) -> dict[str, Any]:
 
 
 def _wide(column: NDArray[Any]) -> NDArray[Any]:
-    # float32 and float64 fields alike: users compare and serialise Python floats.
+    # Whatever the field's width, users get Python's own numbers.
     return column.astype({"f": np.float64, "i": np.int64, "b": np.bool_}[column.dtype.kind])

@@ -15,10 +15,11 @@ from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
 REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
 """Default weights: per metre nearer to the beacon, per second, once on arrival."""
 
-FAN_BEARINGS = (0.0, 15.0, -15.0, 34.0, -34.0, 60.0, -60.0, 97.0, -97.0)
-"""Default bearings of the fan of terrain heights, degrees, 0 ahead, positive left."""
+FAN_BEARINGS = (0.0, 30.0, -30.0)
+"""Default bearings of the fan of terrain heights, degrees, 0 ahead, positive left: chosen by what learns
+best (README, Results)."""
 
-FAN_RANGES = (6.0, 16.0, 35.0, 70.0, 120.0)
+FAN_RANGES = (10.0, 25.0, 50.0, 90.0)
 """Default ranges of the fan of terrain heights, m."""
 
 ACTIONS = ("multi_discrete", "box")
@@ -117,7 +118,7 @@ class SkiOptions:
         put(self, "start_speed", _check.real("start_speed", self.start_speed, 0, 100, "m/s"))
         put(self, "reward", _reward(self.reward))
         put(self, "fan_bearings", _fan("fan_bearings", self.fan_bearings, -180, 180, "degrees"))
-        put(self, "fan_ranges", _fan("fan_ranges", self.fan_ranges, 0, 1e4, "m"))
+        put(self, "fan_ranges", _fan("fan_ranges", self.fan_ranges, 1, 2000, "m"))
         put(self, "landing", _check.flag("landing", self.landing))
 
     @classmethod

@@ -75,6 +75,18 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
         """The terrain of the episode."""
         return self._task.terrain()
 
+    def state(self) -> np.void:
+        """A copy of the player's state, structured: position, velocity, yaw, energy and so on, as in
+        `Simulator.state`.
+        """
+        state: np.void = self._task.batch.state()[0]
+        return state
+
+    def goal(self) -> NDArray[np.float64]:
+        """Position of the beacon on the ground, (3,), m."""
+        goal: NDArray[np.float64] = self._task.batch.goals()[0]
+        return goal
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:

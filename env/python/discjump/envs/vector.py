@@ -131,8 +131,8 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         """
         mask = _checked_mask(options, self.num_envs)
         observations = self._task.reset(seeds_of(seed, self.num_envs), mask, options, batched=True)
-        if isinstance(seed, int):
-            super().reset(seed=seed)
+        if isinstance(seed, (int, np.integer)):
+            super().reset(seed=int(seed))
         chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask
         return observations, infos.masked(infos.now(self._task.batch.status()), chosen)
 

@@ -48,15 +48,17 @@ class Sight:
 
         forward, right = layout.read(observations, "beacon_direction").T
         fan = layout.read(observations, "fan") if "fan" in layout.slices else np.zeros((len(observations), 0))
+        height = number("height")
         return cls(
             bearing=np.arctan2(-right, forward),
             distance=number("beacon_distance"),
             closing=number("closing_speed"),
             drift=-number("lateral_speed"),
             climb=layout.read(observations, "velocity")[:, 2],
-            height=number("height"),
+            height=height,
             energy=number("energy"),
-            ahead=fan[:, : ranges.size],
+            # The fan is rise over range, seen from the ground below the player.
+            ahead=fan[:, : ranges.size] * ranges[: fan.shape[1]] - height[:, None],
             ranges=ranges,
         )
 
