@@ -249,8 +249,11 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             run: Run::idle(),
             episodes: R::each(|_| Episode::default()),
         };
+        let corners: Vec<u8> =
+            setup.areas.iter().flat_map(|a| [a.min, a.max].concat()).flat_map(f64::to_le_bytes).collect();
         let layout = format!(
-            "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, {:?}, {:?}, {:?}, {} terrains: {:032x}",
+            "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, {:?}, {:?}, {:?}, {} terrains: {:032x}, \
+             their areas: {:016x}",
             S::NAME,
             setup.fidelity,
             setup.armor,
@@ -262,6 +265,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             setup.autoreset,
             setup.maps.count(),
             setup.maps.digest(),
+            xxhash_rust::xxh3::xxh3_64(&corners),
         );
         let blocks = vec![idle; setup.count.div_ceil(R::LANES)];
         Ok(Box::new(Self {

@@ -1,6 +1,9 @@
 //! What the physics tests share: worlds of planes, and a simulator that is read by field name.
 #![allow(dead_code, missing_docs)]
 
+pub mod crowd;
+pub mod envs;
+
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;
 use discjump_core::rules::Physics;
