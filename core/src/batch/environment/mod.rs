@@ -3,160 +3,31 @@
 use super::codec::{read_player, write_player};
 use super::float_environment::DefaultFloats;
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
-use super::simulator::{MAX_PLAYERS, check_tick, find_armor};
+use super::simulator::find_armor;
 use super::snapshot;
 use crate::error::{InputError, refuse};
 use crate::input::Input;
-use crate::movement::{Movement, Sliced};
-use crate::observe::{LayoutField, SkiObservation};
+use crate::movement::Movement;
+use crate::observe::LayoutField;
 use crate::player::{Field, Player, fields, local};
 use crate::real::{Int, Mask, Real, Scalar, V3};
-use crate::rules::{Physics, Rules};
-use crate::scene::{Group, Scene, Ski};
-use crate::task::{ActionKind, Actions, CourseRequest, Outcome, Run, SkiTask, draw_course};
-use crate::terrain::Maps;
-use crate::terrain::mission::Area;
-use glam::{DVec2, DVec3, IVec2};
+use crate::rules::Rules;
+use crate::scene::{Group, Scene};
+use crate::task::{ActionKind, Actions, CourseRequest, Outcome, Run, draw_course};
+use glam::{DVec3, IVec2};
 use rayon::prelude::*;
-use std::sync::Arc;
 
+mod api;
 mod episode;
+mod setup;
 mod step;
 
+pub use api::{Autoreset, Environments, ResetRequest, Status, StepOutput};
 use episode::{Begun, Episode, Phase};
+pub use setup::SkiEnvironments;
 
 /// Players stepped together by one task of the pool.
 const CHUNK: usize = 32;
-
-/// When an environment whose episode ended begins the next one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Autoreset {
-    /// In the step after the one that ended it, whose action is ignored.
-    NextStep,
-    /// In the step that ended it, which returns the next episode's first observation.
-    SameStep,
-    /// When the user resets it; until then it stays as it ended.
-    Disabled,
-}
-
-/// What a reset asks for. Every list is empty (nothing asked) or has one entry per environment.
-#[derive(Clone, Debug, Default)]
-pub struct ResetRequest {
-    /// New seeds; without them each environment goes on to its next episode.
-    pub seeds: Vec<u64>,
-    /// Which environments to reset; all where empty.
-    pub mask: Vec<bool>,
-    /// Fixed parts of the episodes; drawn where empty.
-    pub courses: Vec<CourseRequest>,
-}
-
-/// Where a step writes: one entry (or row) per environment.
-#[derive(Debug)]
-pub struct StepOutput<'a> {
-    /// Observations, row by row.
-    pub observations: &'a mut [f32],
-    /// Rewards.
-    pub rewards: &'a mut [f64],
-    /// Whether the episode ended by arrival or death.
-    pub terminated: &'a mut [bool],
-    /// Whether the episode ended by the clock.
-    pub truncated: &'a mut [bool],
-}
-
-/// What is reported of an environment at any time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Status {
-    /// Horizontal distance to the beacon, m.
-    pub distance: f64,
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Seconds played.
-    pub time: f64,
-    /// Whether the player is outside the mission area.
-    pub outside: bool,
-    /// Which map of the pool.
-    pub terrain: usize,
-}
-
-/// Everything that a batch of ski environments is made from.
-#[derive(Debug)]
-pub struct SkiEnvironments {
-    /// The pool of maps; batches may share one.
-    pub maps: Arc<Maps>,
-    /// The area of each map that episodes are drawn in.
-    pub areas: Vec<Area>,
-    /// How many environments.
-    pub count: usize,
-    /// Tier: "authentic" or "reference".
-    pub fidelity: String,
-    /// Armor: "light", "medium" or "heavy".
-    pub armor: String,
-    /// Whether the player wears an energy pack.
-    pub energy_pack: bool,
-    /// Switches of the movement model.
-    pub physics: Physics,
-    /// Tick length, ms.
-    pub tick_ms: u32,
-    /// The task.
-    pub task: SkiTask,
-    /// Its actions.
-    pub actions: ActionKind,
-    /// Its observation.
-    pub observation: SkiObservation,
-    /// When ended episodes begin anew.
-    pub autoreset: Autoreset,
-    /// Threads; one per core where absent.
-    pub threads: Option<usize>,
-}
-
-/// What every batch of environments can do, whatever its tier.
-pub trait Environments: Send + Sync {
-    /// How many environments.
-    fn len(&self) -> usize;
-    /// Whether there is none: never.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-    /// Numbers in an observation.
-    fn observation_size(&self) -> usize;
-    /// The layout of an observation.
-    fn layout(&self) -> Vec<LayoutField>;
-    /// The kind of action that [`Environments::step`] takes.
-    fn action_kind(&self) -> ActionKind;
-    /// Begins episodes, and writes the observations of all environments.
-    ///
-    /// # Errors
-    /// If the request is malformed; then nothing was changed.
-    fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError>;
-    /// One decision of every environment.
-    ///
-    /// # Errors
-    /// If actions or outputs are malformed, or an environment was never reset; then nothing was changed.
-    fn step(&mut self, actions: Actions<'_>, output: StepOutput<'_>) -> Result<(), InputError>;
-    /// Which environments' episodes ended in the last step, and how, in ascending order.
-    fn finished(&self) -> &[(usize, Outcome)];
-    /// Their last observations, row by row.
-    fn final_observations(&self) -> &[f32];
-    /// Status of every environment.
-    fn status(&self) -> Vec<Status>;
-    /// World position of every beacon, m.
-    fn goals(&self) -> Vec<[f64; 3]>;
-    /// The fields of a player's state after `position` (three f64), packed.
-    fn state_fields(&self) -> Vec<Field>;
-    /// All players' states, packed.
-    fn state(&self) -> Vec<u8>;
-    /// Bytes that one environment takes in memory, beside its observation row.
-    fn bytes_per_environment(&self) -> usize;
-    /// Everything, as bytes that [`Environments::restore`] takes.
-    fn snapshot(&self) -> Vec<u8>;
-    /// Goes back to a snapshot.
-    ///
-    /// # Errors
-    /// If it is damaged, or of another layout or count; then nothing was changed.
-    fn restore(&mut self, snapshot: &[u8]) -> Result<(), InputError>;
-    /// XXH3-128 of all environments, as 32 hexadecimal digits.
-    fn digest(&self) -> String;
-}
 
 /// The environments of some lanes, side by side.
 #[derive(Clone, Copy, Debug)]
@@ -176,66 +47,6 @@ struct Batch<S: Scene, M: Movement, R: Real> {
     threads: usize,
     layout: String,
     movement: core::marker::PhantomData<M>,
-}
-
-impl SkiEnvironments {
-    /// Builds the batch. Nothing is reset yet.
-    ///
-    /// # Errors
-    /// Names the argument that is out of range or unknown, with what was expected.
-    pub fn build(self) -> Result<Box<dyn Environments>, InputError> {
-        self.check()?;
-        match self.fidelity.as_str() {
-            "authentic" => Batch::<Ski, Sliced, f32>::boxed(self),
-            "reference" => Batch::<Ski, Sliced, f64>::boxed(self),
-            other => refuse!("fidelity: expected \"authentic\" or \"reference\", got {other:?}"),
-        }
-    }
-
-    fn check(&self) -> Result<(), InputError> {
-        if !(1..=MAX_PLAYERS).contains(&self.count) {
-            refuse!("num_envs: expected 1 to {MAX_PLAYERS}, got {}", self.count);
-        }
-        find_armor(&self.armor)?;
-        check_tick(self.tick_ms)?;
-        let task = &self.task;
-        let (near, far) = task.goal_distance;
-        if !(1..=1000).contains(&task.frame_skip) {
-            refuse!("frame_skip: expected 1 to 1000 ticks, got {}", task.frame_skip);
-        }
-        if task.time_limit < 1 {
-            refuse!("time_limit: expected at least one tick, got {}", task.time_limit);
-        }
-        if !(task.arrival_radius > 0.0 && task.arrival_radius <= 1000.0) {
-            refuse!("arrival_radius: expected above 0 and up to 1000 m, got {}", task.arrival_radius);
-        }
-        if !(near > task.arrival_radius && near <= far && far <= 1e6) {
-            refuse!(
-                "goal_distance: expected (near, far) with arrival_radius < near <= far <= 1e6 m, got ({near}, {far})"
-            );
-        }
-        if !(0.0..=1000.0).contains(&task.start_speed) {
-            refuse!("start_speed: expected 0 to 1000 m/s, got {}", task.start_speed);
-        }
-        if !(task.turn_rate > 0.0 && task.turn_rate <= crate::input::MAX_TURN_RATE) {
-            refuse!("turn_rate: expected above 0 and up to 1000 rad/s, got {}", task.turn_rate);
-        }
-        let reward = [task.reward.progress, task.reward.time, task.reward.arrival];
-        if let Some(bad) = reward.iter().find(|w| w.is_nan() || w.abs() > 1e6) {
-            refuse!("reward: expected finite weights within +-1e6, got {bad}");
-        }
-        if self.areas.len() != self.maps.count() {
-            refuse!("areas: expected {}, one per terrain, got {}", self.maps.count(), self.areas.len());
-        }
-        let diagonal = |a: &Area| (DVec2::from(a.max) - DVec2::from(a.min)).length();
-        if let Some(area) = self.areas.iter().find(|a| diagonal(a) < near) {
-            refuse!(
-                "goal_distance: expected at most {:.1} m, the diagonal of the smallest terrain's area, got {near}",
-                diagonal(area)
-            );
-        }
-        Ok(())
-    }
 }
 
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
