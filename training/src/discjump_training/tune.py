@@ -1,8 +1,7 @@
 """Tunes a scripted baseline on the training course: `python -m discjump_training.tune skier`.
 
 Differential evolution over all parameters of the script, started from a Sobol sequence. The search is
-seeded and the episodes are fixed, so the same command gives the same constants. What it prints is what
-stands in `baselines/tuned.toml`.
+seeded and the episodes are fixed, so the same command gives the same constants on the same simulator.
 """
 
 import sys
