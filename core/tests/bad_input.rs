@@ -1,0 +1,390 @@
+//! Bad input is refused by name, with what was expected and what came, and nothing is changed.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::envs::{Envs, ski};
+use common::*;
+use discjump_core::batch::{
+    Autoreset, Bodies, RawInput, ResetRequest, SimulatorSetup, SkiEnvironments, StepOutput,
+};
+use discjump_core::error::InputError;
+use discjump_core::observe::SkiObservation;
+use discjump_core::task::{ActionKind, Actions, CourseRequest};
+use discjump_core::terrain::mission::Area;
+use discjump_core::terrain::{Edge, Heightfield, Maps};
+use glam::DVec2;
+
+const NAN: f64 = f64::NAN;
+const INF: f64 = f64::INFINITY;
+
+/// The message must begin with the argument and hold what came.
+#[track_caller]
+fn refused<T>(result: Result<T, InputError>, argument: &str, got: &str) {
+    let Err(error) = result else { panic!("{argument}: {got} was accepted") };
+    let message = error.to_string();
+    assert!(message.starts_with(argument), "{message:?} does not begin with {argument:?}");
+    assert!(message.contains("expected"), "{message:?} does not say what was expected");
+    assert!(message.contains(got), "{message:?} does not say {got:?}");
+}
+
+#[test]
+fn heightfields() {
+    let ok = vec![1.0; 6];
+    let new = |heights: &[f64], rows, cols, size, origin, edge| {
+        Heightfield::new(heights.to_vec(), rows, cols, size, origin, edge)
+    };
+    let make = |heights: &[f64]| new(heights, 2, 3, 8.0, [0.0; 2], Edge::Clamp);
+    assert!(make(&ok).is_ok());
+    refused(new(&ok, 1, 6, 8.0, [0.0; 2], Edge::Clamp), "heights", "1 x 6");
+    refused(new(&ok, 6, 1, 8.0, [0.0; 2], Edge::Clamp), "heights", "6 x 1");
+    refused(new(&[], 0, 0, 8.0, [0.0; 2], Edge::Clamp), "heights", "0 x 0");
+    refused(new(&ok, 2, 2, 8.0, [0.0; 2], Edge::Clamp), "heights", "6");
+    refused(new(&ok, usize::MAX, 2, 8.0, [0.0; 2], Edge::Clamp), "heights", "x 2");
+    refused(new(&ok, 1 << 20, 1 << 20, 8.0, [0.0; 2], Edge::Clamp), "heights", "1048576");
+    for (bad, got) in [(NAN, "NaN"), (INF, "inf"), (-INF, "-inf"), (10_000.001, "10000.001"), (-1e300, "-1")]
+    {
+        let mut heights = ok.clone();
+        heights[4] = bad;
+        refused(make(&heights), "heights", got);
+        refused(make(&heights), "heights", "row 1, column 1");
+    }
+    for edge in [10_000.0, -10_000.0] {
+        assert!(make(&[edge; 6]).is_ok());
+    }
+    for (bad, got) in
+        [(0.0, "0"), (-8.0, "-8"), (NAN, "NaN"), (INF, "inf"), (0.009, "0.009"), (10_001.0, "10001")]
+    {
+        refused(new(&ok, 2, 3, bad, [0.0; 2], Edge::Clamp), "square_size", got);
+    }
+    for bad in [[NAN, 0.0], [0.0, INF], [1.1e9, 0.0]] {
+        refused(new(&ok, 2, 3, 8.0, bad, Edge::Clamp), "origin", &format!("{bad:?}"));
+    }
+    // A map that tiles repeats its first row and column.
+    refused(new(&[1.0, 1.0, 1.0, 1.0, 2.0, 1.0], 2, 3, 8.0, [0.0; 2], Edge::Tile), "heights", "column 1");
+    refused(new(&[1.0, 2.0, 3.0, 1.0, 2.0, 3.0], 2, 3, 8.0, [0.0; 2], Edge::Tile), "heights", "row 0");
+    refused("wrap".parse::<Edge>(), "edge", "\"wrap\"");
+}
+
+#[test]
+fn pools_of_maps() {
+    let map =
+        |rows, size| Heightfield::new(vec![0.0; rows * 3], rows, 3, size, [0.0; 2], Edge::Clamp).unwrap();
+    refused(Maps::new(&[]), "terrains", "none");
+    refused(Maps::new(&[map(3, 8.0), map(4, 8.0)]), "terrains", "4 x 3");
+    refused(Maps::new(&[map(3, 8.0), map(3, 8.0), map(3, 4.0)]), "terrains", "number 2");
+}
+
+#[test]
+fn simulators() {
+    let map = rolling();
+    let build = |change: fn(&mut SimulatorSetup<'_>)| {
+        let mut s = setup(&map, "authentic");
+        change(&mut s);
+        s.build()
+    };
+    assert!(build(|_| ()).is_ok());
+    refused(build(|s| s.players = 0), "num_players", "0");
+    refused(build(|s| s.players = (1 << 24) + 1), "num_players", "16777217");
+    refused(build(|s| s.threads = Some(0)), "threads", "0");
+    refused(build(|s| s.threads = Some(257)), "threads", "257");
+    refused(build(|s| s.scene = "race"), "scene", "\"race\"");
+    refused(build(|s| s.fidelity = "exact"), "fidelity", "\"exact\"");
+    refused(build(|s| s.armor = "Light"), "armor", "\"Light\"");
+    refused(build(|s| s.tick_ms = 0), "tick_ms", "0");
+    refused(build(|s| s.tick_ms = 1001), "tick_ms", "1001");
+}
+
+/// Runs `call` on a batch that has been played, and checks that it changes no bit.
+#[track_caller]
+fn unchanged(
+    sim: &mut dyn Bodies,
+    call: impl FnOnce(&mut dyn Bodies) -> Result<(), InputError>,
+    argument: &str,
+    got: &str,
+) {
+    let before = (sim.digest(), sim.state(), sim.snapshot());
+    refused(call(sim), argument, got);
+    assert_eq!((sim.digest(), sim.state(), sim.snapshot()), before, "{argument}: {got}");
+}
+
+fn played(tier: &str) -> Box<dyn Bodies> {
+    let map = rolling();
+    let mut s = setup(&map, tier);
+    s.players = 3;
+    let mut sim = s.build().unwrap();
+    sim.step(&[SKI; 3], 30).unwrap();
+    sim
+}
+
+#[test]
+fn inputs_of_a_step() {
+    for tier in ["authentic", "reference"] {
+        let mut sim = played(tier);
+        let mut bad = |change: fn(&mut RawInput), argument: &str, got: &str| {
+            let mut inputs = [SKI; 3];
+            change(&mut inputs[2]);
+            let argument = format!("inputs[2].{argument}");
+            unchanged(&mut *sim, |s| s.step(&inputs, 1), &argument, got);
+        };
+        bad(|i| i.forward = 2, "forward", "2");
+        bad(|i| i.forward = i8::MIN, "forward", "-128");
+        bad(|i| i.strafe = -2, "strafe", "-2");
+        bad(|i| i.jump = 2, "jump", "2");
+        bad(|i| i.jet = 255, "jet", "255");
+        bad(|i| i.fire = 7, "fire", "7");
+        bad(|i| i.turn = NAN, "turn", "NaN");
+        bad(|i| i.turn = -INF, "turn", "-inf");
+        bad(|i| i.turn = 1000.1, "turn", "1000.1");
+        bad(|i| i.pitch = NAN, "pitch", "NaN");
+        bad(|i| i.pitch = INF, "pitch", "inf");
+        unchanged(&mut *sim, |s| s.step(&[SKI; 2], 1), "inputs", "2");
+        unchanged(&mut *sim, |s| s.step(&[], 1), "inputs", "0");
+    }
+}
+
+/// A state of player 0 with one number of a field replaced.
+fn state_with(sim: &dyn Bodies, name: &str, at: usize, value: f64) -> Vec<u8> {
+    let mut state = sim.state()[..sim.state_bytes()].to_vec();
+    if name == "position" {
+        state[8 * at..8 * at + 8].copy_from_slice(&value.to_le_bytes());
+        return state;
+    }
+    let mut offset = 24;
+    for f in sim.state_fields() {
+        if f.name == name {
+            let offset = offset + at * f.kind.bytes();
+            match (f.kind, f.kind.bytes()) {
+                (discjump_core::player::FieldKind::Int, _) => {
+                    state[offset..offset + 4].copy_from_slice(&(value as i32).to_le_bytes());
+                }
+                (_, 8) => state[offset..offset + 8].copy_from_slice(&value.to_le_bytes()),
+                _ => state[offset..offset + 4].copy_from_slice(&(value as f32).to_le_bytes()),
+            }
+            return state;
+        }
+        offset += f.kind.bytes() * f.count;
+    }
+    panic!("no field {name}");
+}
+
+#[test]
+fn states() {
+    for tier in ["authentic", "reference"] {
+        let mut sim = played(tier);
+        let good = sim.state()[..sim.state_bytes()].to_vec();
+        for (name, at, value, got) in [
+            ("position", 0, NAN, "NaN"),
+            ("position", 1, INF, "inf"),
+            ("position", 2, -INF, "-inf"),
+            ("position", 0, 1.1e9, "1100000000"),
+            ("velocity", 0, NAN, "NaN"),
+            ("velocity", 2, INF, "inf"),
+            ("velocity", 1, -1.1e6, "-1100000"),
+            ("yaw", 0, NAN, "NaN"),
+            ("yaw", 0, 1.5e6, "1500000"),
+            ("pitch", 0, INF, "inf"),
+            ("energy", 0, -1.0, "-1"),
+            ("energy", 0, 60.5, "60.5"),
+            ("energy", 0, NAN, "NaN"),
+            ("damage", 0, -0.5, "-0.5"),
+            ("damage", 0, NAN, "NaN"),
+            ("friction", 0, 1.5, "1.5"),
+            ("friction", 0, NAN, "NaN"),
+            ("jump_normal", 2, 3.0, "3"),
+            ("jump_normal", 0, NAN, "NaN"),
+            ("jump_age", 0, -1.0, "-1"),
+        ] {
+            let bad = state_with(&*sim, name, at, value);
+            // The good one before it must not be taken either.
+            let both = [good.clone(), bad].concat();
+            let argument = format!("state[1].{name}");
+            unchanged(&mut *sim, |s| s.set_state(&[2, 0], &both), &argument, got);
+        }
+        unchanged(&mut *sim, |s| s.set_state(&[3], &good), "indices", "3");
+        unchanged(&mut *sim, |s| s.set_state(&[usize::MAX], &good), "indices", "18446744073709551615");
+        unchanged(&mut *sim, |s| s.set_state(&[0, 1], &good), "state", "2 states");
+        unchanged(
+            &mut *sim,
+            |s| s.set_state(&[0], &good[1..]),
+            "state",
+            &format!("{} bytes", good.len() - 1),
+        );
+        sim.set_state(&[], &[]).unwrap();
+    }
+}
+
+#[test]
+fn environments() {
+    let build = |change: fn(&mut SkiEnvironments)| {
+        let mut s = ski(2, "authentic");
+        change(&mut s);
+        s.build()
+    };
+    assert!(build(|_| ()).is_ok());
+    refused(build(|s| s.count = 0), "num_envs", "0");
+    refused(build(|s| s.count = usize::MAX), "num_envs", "18446744073709551615");
+    refused(build(|s| s.threads = Some(0)), "threads", "0");
+    refused(build(|s| s.fidelity = "fastest".into()), "fidelity", "\"fastest\"");
+    refused(build(|s| s.armor = String::new()), "armor", "\"\"");
+    refused(build(|s| s.tick_ms = 0), "tick_ms", "0");
+    refused(build(|s| s.task.frame_skip = 0), "frame_skip", "0");
+    refused(build(|s| s.task.frame_skip = 1001), "frame_skip", "1001");
+    refused(build(|s| s.task.time_limit = 0), "time_limit", "0");
+    refused(build(|s| s.task.time_limit = -5), "time_limit", "-5");
+    refused(build(|s| s.task.arrival_radius = 0.0), "arrival_radius", "0");
+    refused(build(|s| s.task.arrival_radius = NAN), "arrival_radius", "NaN");
+    refused(build(|s| s.task.goal_distance = (5.0, 50.0)), "goal_distance", "(5, 50)");
+    refused(build(|s| s.task.goal_distance = (50.0, 40.0)), "goal_distance", "(50, 40)");
+    refused(build(|s| s.task.goal_distance = (NAN, 40.0)), "goal_distance", "NaN");
+    refused(build(|s| s.task.goal_distance = (40.0, INF)), "goal_distance", "inf");
+    refused(build(|s| s.task.goal_distance = (600.0, 700.0)), "goal_distance", "600");
+    refused(build(|s| s.task.start_speed = -1.0), "start_speed", "-1");
+    refused(build(|s| s.task.start_speed = NAN), "start_speed", "NaN");
+    refused(build(|s| s.task.turn_rate = 0.0), "turn_rate", "0");
+    refused(build(|s| s.task.turn_rate = INF), "turn_rate", "inf");
+    refused(build(|s| s.task.reward.progress = NAN), "reward", "NaN");
+    refused(build(|s| s.task.reward.arrival = -INF), "reward", "-inf");
+    refused(build(|s| s.areas.truncate(1)), "areas", "1");
+    refused(build(|s| s.areas[1].min[0] = NAN), "areas", "NaN");
+    refused(build(|s| s.areas[0] = Area { min: [9.0, 0.0], max: [0.0, 900.0] }), "areas", "9");
+    refused(SkiObservation::new(&[181.0], &[5.0], true), "fan_bearings", "181");
+    refused(SkiObservation::new(&[NAN], &[5.0], true), "fan_bearings", "NaN");
+    refused(SkiObservation::new(&[0.0], &[-1.0], true), "fan_ranges", "-1");
+    refused(SkiObservation::new(&[0.0], &[INF], true), "fan_ranges", "inf");
+    refused(SkiObservation::new(&[0.0; 100], &[1.0; 100], true), "fan", "100 bearings");
+}
+
+/// Runs `call` on environments that have been played, and checks that it changes nothing.
+#[track_caller]
+fn envs_unchanged(
+    envs: &mut Envs,
+    call: impl FnOnce(&mut Envs) -> Result<(), InputError>,
+    argument: &str,
+    got: &str,
+) {
+    let look = |e: &Envs| {
+        let rest = (e.observations.clone(), e.rewards.clone(), e.batch.final_observations().to_vec());
+        (e.batch.digest(), e.batch.state(), format!("{:?}", e.batch.finished()), rest)
+    };
+    let before = look(envs);
+    refused(call(envs), argument, got);
+    assert_eq!(look(envs), before, "{argument}: {got}");
+}
+
+fn step(envs: &mut Envs, actions: Actions<'_>) -> Result<(), InputError> {
+    let Envs { batch, observations, rewards, terminated, truncated } = envs;
+    batch.step(actions, StepOutput { observations, rewards, terminated, truncated })
+}
+
+#[test]
+fn actions_of_a_decision() {
+    let mut envs = Envs::seeded(ski(3, "authentic"), &[1, 2, 3]);
+    (0..80).for_each(|_| envs.play());
+    for (column, bad) in [(0, 3), (0, -1), (1, 3), (2, 2), (3, -128), (4, 7)] {
+        let mut actions = [1i8, 1, 0, 0, 3].repeat(3);
+        actions[5 + column] = bad;
+        let argument = format!("actions[1, {column}]");
+        envs_unchanged(&mut envs, |e| step(e, Actions::Int8(&actions)), &argument, &bad.to_string());
+        let wide: Vec<i64> = actions.iter().map(|&a| i64::from(a)).collect();
+        envs_unchanged(&mut envs, |e| step(e, Actions::Int64(&wide)), &argument, &bad.to_string());
+    }
+    // Beyond what a narrower integer holds: not wrapped around into range.
+    let far = [1i64, 1, 0, 0, 1 << 32].repeat(3);
+    envs_unchanged(&mut envs, |e| step(e, Actions::Int64(&far)), "actions[0, 4]", "4294967296");
+    envs_unchanged(&mut envs, |e| step(e, Actions::Int8(&[1; 14])), "actions", "14");
+    envs_unchanged(&mut envs, |e| step(e, Actions::Int32(&[])), "actions", "0");
+    envs_unchanged(&mut envs, |e| step(e, Actions::Float(&[0.0; 15])), "actions", "floats");
+
+    let mut setup = ski(3, "authentic");
+    setup.actions = ActionKind::Box;
+    let mut envs = Envs::seeded(setup, &[1, 2, 3]);
+    step(&mut envs, Actions::Float(&[0.9; 15])).unwrap();
+    for (bad, got) in [(f32::NAN, "NaN"), (1.0f32.next_up(), "1.0000001"), (f32::NEG_INFINITY, "-inf")] {
+        let mut actions = [0.0; 15];
+        actions[13] = bad;
+        envs_unchanged(&mut envs, |e| step(e, Actions::Float(&actions)), "actions[2, 3]", got);
+    }
+    envs_unchanged(&mut envs, |e| step(e, Actions::Int8(&[1; 15])), "actions", "integers");
+}
+
+#[test]
+fn outputs_of_a_decision() {
+    let mut envs = Envs::seeded(ski(2, "authentic"), &[1, 2]);
+    let actions = [1i8, 1, 0, 0, 3].repeat(2);
+    for short in 0..4 {
+        envs_unchanged(
+            &mut envs,
+            |e| {
+                let Envs { batch, observations, rewards, terminated, truncated } = e;
+                let cut = |k: usize, n: usize| if short == k { n - 1 } else { n };
+                let n = observations.len();
+                let output = StepOutput {
+                    observations: &mut observations[..cut(0, n)],
+                    rewards: &mut rewards[..cut(1, 2)],
+                    terminated: &mut terminated[..cut(2, 2)],
+                    truncated: &mut truncated[..cut(3, 2)],
+                };
+                batch.step(Actions::Int8(&actions), output)
+            },
+            "output",
+            "2",
+        );
+    }
+}
+
+#[test]
+fn resets() {
+    let mut envs = Envs::new(ski(2, "authentic"));
+    let reset = |e: &mut Envs, request: ResetRequest| e.batch.reset(&request, &mut e.observations);
+    let none = ResetRequest::default;
+    envs_unchanged(&mut envs, |e| step(e, Actions::Int8(&[1; 10])), "step", "expected every environment");
+    envs_unchanged(&mut envs, |e| reset(e, none()), "seeds", "none");
+    // One of two: the other still has no seed.
+    let seeds = vec![1, 2];
+    reset(&mut envs, ResetRequest { seeds: seeds.clone(), mask: vec![true, false], ..none() }).unwrap();
+    envs_unchanged(&mut envs, |e| reset(e, none()), "seeds", "environment 1");
+    reset(&mut envs, ResetRequest { seeds, ..none() }).unwrap();
+    (0..80).for_each(|_| envs.play());
+
+    let course = |change: fn(&mut CourseRequest)| {
+        let mut course = CourseRequest::default();
+        change(&mut course);
+        ResetRequest { courses: vec![CourseRequest::default(), course], ..none() }
+    };
+    envs_unchanged(&mut envs, |e| reset(e, ResetRequest { seeds: vec![1], ..none() }), "seeds", "1");
+    envs_unchanged(&mut envs, |e| reset(e, ResetRequest { mask: vec![true; 3], ..none() }), "mask", "3");
+    let courses = vec![CourseRequest::default(); 5];
+    envs_unchanged(&mut envs, |e| reset(e, ResetRequest { courses, ..none() }), "options", "5");
+    for (change, what, got) in [
+        ((|c| c.map = Some(2)) as fn(&mut CourseRequest), "terrain", "2"),
+        (|c| c.start = Some(DVec2::new(NAN, 0.0)), "start", "NaN"),
+        (|c| c.start = Some(DVec2::new(0.0, 2e9)), "start", "2000000000"),
+        (|c| (c.start, c.height) = (Some(DVec2::ZERO), Some(INF)), "start", "inf"),
+        (|c| c.goal = Some(DVec2::new(0.0, -INF)), "goal", "-inf"),
+    ] {
+        let argument = format!("environment 1: {what}");
+        envs_unchanged(&mut envs, |e| reset(e, course(change)), &argument, got);
+    }
+    envs_unchanged(&mut envs, |e| e.batch.reset(&none(), &mut [0.0; 3]), "observations", "3");
+    reset(&mut envs, none()).unwrap();
+}
+
+/// Where nothing tiles there may be no ground to start on.
+#[test]
+fn a_start_beyond_a_void_map() {
+    let mut setup = ski(1, "authentic");
+    let map = Heightfield::new(vec![5.0; 65 * 65], 65, 65, 8.0, [0.0; 2], Edge::Void).unwrap();
+    setup.maps = Maps::new(&[map]).unwrap();
+    setup.areas.truncate(1);
+    setup.autoreset = Autoreset::Disabled;
+    let mut envs = Envs::seeded(setup, &[4]);
+    let course = CourseRequest { start: Some(DVec2::new(-1.0, 5.0)), ..CourseRequest::default() };
+    let request = ResetRequest { courses: vec![course], ..ResetRequest::default() };
+    envs_unchanged(
+        &mut envs,
+        |e| e.batch.reset(&request, &mut e.observations),
+        "environment 0: start",
+        "(-1, 5)",
+    );
+}
