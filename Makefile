@@ -84,8 +84,15 @@ lock: $(UV) ## Resolve requirements.lock anew from both pyproject.toml
 # ---------------------------------------------------------------------------------------------- the main job
 
 .PHONY: train smoke
+# Again after Ctrl-C it goes on; again after the end it only judges.
 train: setup ## Set up, train a ski agent, judge it on terrain it never saw
-	$(VENV)/bin/discjump train ski --out $(RUN) $(TRAIN_ARGS)
+	@if [ -e "$(RUN)/final.zip" ]; then \
+	  echo "$(RUN) is trained already; another: make train RUN=runs/NAME TRAIN_ARGS='--seed 1'"; \
+	elif compgen -G "$(RUN)/checkpoints/*.zip" > /dev/null; then \
+	  $(VENV)/bin/discjump train ski --resume $(RUN); \
+	else \
+	  $(VENV)/bin/discjump train ski --out $(RUN) $(TRAIN_ARGS); \
+	fi
 	$(VENV)/bin/discjump evaluate $(RUN)
 
 smoke: setup ## The main job in about 30 seconds, to see that it runs

@@ -47,8 +47,10 @@ const LOW: f64 = 3.0;
 const NEAR: f64 = 30.0;
 
 impl SkiObservation {
-    /// An observation with a fan of terrain heights at every bearing (degrees, 0 ahead, positive to
-    /// the left) and range (metres), and with the ballistic landing or without it.
+    /// An observation with a fan of terrain at every bearing (degrees, 0 ahead, positive to the left)
+    /// and range (metres): its height over the ground below the player, over the range. So the fan is
+    /// the shape of the ground, about [-1, 1], whatever the player's own height (which stands beside
+    /// it). With the ballistic landing or without it.
     ///
     /// # Errors
     /// If a bearing or a range is out of range, or there are more than 4096 samples.
@@ -63,8 +65,8 @@ impl SkiObservation {
         if let Some(b) = bearings.iter().find(|b| b.is_nan() || b.abs() > 180.0) {
             refuse!("fan_bearings: expected -180 to 180 degrees, got {b}");
         }
-        if let Some(r) = ranges.iter().find(|r| !(0.0..=2000.0).contains(*r)) {
-            refuse!("fan_ranges: expected 0 to 2000 m, got {r}");
+        if let Some(r) = ranges.iter().find(|r| !(1.0..=2000.0).contains(*r)) {
+            refuse!("fan_ranges: expected 1 to 2000 m, got {r}");
         }
         let bearings = bearings
             .iter()
@@ -112,7 +114,7 @@ impl SkiObservation {
             add("landing_rise", 1, "m", HEIGHT);
         }
         if self.samples() > 0 {
-            add("fan", self.samples(), "m", HEIGHT);
+            add("fan", self.samples(), "", 1.0);
         }
         layout
     }
@@ -193,7 +195,6 @@ impl SkiObservation {
             row.push(&[along], one);
             row.push(&[there.rise], t(1.0 / HEIGHT));
         }
-        let scale = t(1.0 / HEIGHT);
         for &[ahead, aside] in &self.bearings {
             let (ahead, aside) = (t(ahead), t(aside));
             let dx = aside * cos - ahead * sin;
@@ -202,7 +203,7 @@ impl SkiObservation {
                 let range = t(range);
                 let g = surface.ground::<T>(p.map, p.position.x + dx * range, p.position.y + dy * range);
                 let z = if g.exists { g.height } else { lowest };
-                row.push(&[z - p.position.z], scale);
+                row.push(&[(z - below) / range], one);
             }
         }
         assert!(row.0.next().is_none(), "the row is longer than the layout");

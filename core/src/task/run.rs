@@ -94,6 +94,10 @@ pub struct Outcome {
     pub distance: f64,
     /// Horizontal distance of the beacon at the start, m.
     pub start_distance: f64,
+    /// Speed at the end, m/s.
+    pub speed: f64,
+    /// Whether it ended outside the mission area.
+    pub outside: bool,
     /// Which map.
     pub terrain: i64,
     /// The environment's seed.

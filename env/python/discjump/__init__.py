@@ -1,9 +1,29 @@
-"""The movement of Tribes 1 (skiing, jetting, disc jumping), batched for reinforcement learning."""
+"""The movement of Tribes 1 (skiing, jetting, disc jumping), batched for reinforcement learning.
+
+    _native     the simulator, compiled from Rust: Terrain, Simulator, SkiBatch
+    simulator   bodies without a task: Simulator, Physics, INPUT
+    terrains    generated terrains, cached
+    envs        gymnasium environments; importing discjump registers their ids
+    sb3         stable-baselines3 adapter (import discjump.sb3)
+    cli         the command `discjump`
+
+Arrows point down only: cli, sb3 -> envs -> terrains, simulator -> _native.
+"""
 
 from importlib.metadata import version
 
-from discjump import _native as _native
+import gymnasium
+
+from discjump._native import Terrain
+from discjump.simulator import INPUT, Physics, Simulator
 
 __version__ = version("discjump")
 
-__all__ = ["__version__"]
+__all__ = ["INPUT", "Physics", "Simulator", "Terrain", "__version__"]
+
+# No max_episode_steps: the core ends episodes on exact ticks, and gymnasium's TimeLimit would count twice.
+gymnasium.register(
+    id="discjump/Ski-v0",
+    entry_point="discjump.envs.ski:SkiEnv",
+    vector_entry_point="discjump.envs.vector:SkiVectorEnv",
+)

@@ -16,7 +16,8 @@ class Terrain:
     def from_heights(
         heights: ArrayLike,
         square_size: float = 8.0,
-        origin: tuple[float, float] = (0.0, 0.0),
+        # pyo3 shows defaults that are no literals as an ellipsis.
+        origin: tuple[float, float] = ...,
         edge: str = "tile",
     ) -> Terrain: ...
     @property

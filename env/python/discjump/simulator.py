@@ -190,7 +190,7 @@ class Simulator:
         return self._native.digest()
 
 
-def _whole(name: str, value: int) -> int:
+def _whole(name: str, value: object) -> int:
     """A whole number that is not negative."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         raise TypeError(f"{name}: expected an int, got {type(value).__name__}")
@@ -199,7 +199,7 @@ def _whole(name: str, value: int) -> int:
     return int(value)
 
 
-def _packed(name: str, array: NDArray[Any], dtype: np.dtype[Any], rows: int) -> bytes:
+def _packed(name: str, array: object, dtype: np.dtype[Any], rows: int) -> bytes:
     """The bytes of a structured array of this dtype and shape (rows,)."""
     if not isinstance(array, np.ndarray) or array.dtype != dtype:
         got = array.dtype if isinstance(array, np.ndarray) else type(array).__name__

@@ -1,1 +1,18 @@
-"""Training, baselines and judgement of agents for discjump."""
+"""Training, baselines and judgement of agents for discjump.
+
+    cli         `discjump train` and `discjump evaluate`
+    recipe      what a training run does, typed; recipes/ holds those that ship
+    train       PPO from top to bottom: learning, checkpoints, resuming
+    runs        the folder of a run
+    tune        search for the constants of the scripted baselines
+    evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
+    intervals   bootstrap and exact intervals
+    model       model files
+    baselines   random keys, a scripted skier, one that tacks
+    episodes    plays the episodes of a course
+    courses     named terrains and episodes
+    policy      what a policy is, observations by name, actions by meaning
+
+Arrows point down only: cli -> train, tune, evaluate -> model, baselines -> episodes -> courses, policy;
+then `discjump`.
+"""

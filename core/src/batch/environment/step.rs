@@ -259,7 +259,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         e: &Episode,
         decision: Decision,
     ) -> Outcome {
-        let time = run.seconds(self.rules.tick_ms);
+        let Status { distance, speed, time, outside, .. } = self.status_of(p, run, e);
         let path = run.path.to_f64();
         Outcome {
             success: decision.arrived,
@@ -272,8 +272,10 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             mean_speed: path / time,
             path,
             damage: p.damage.get(R::Scalar::default()).to_f64(),
-            distance: e.distance,
+            distance,
             start_distance: e.start_distance,
+            speed,
+            outside,
             terrain: i64::from(e.map),
             seed: e.seed,
             episode: e.episode,

@@ -23,6 +23,8 @@ const RIDGE_ABOVE_RIM: f64 = 11.0;
 const RIDGE_ABOVE_SIGHT: f64 = 7.0;
 /// Slopes of the gorge's walls.
 const WALLS: [f64; 2] = [0.90, 0.58];
+/// Ground about an end of the bridge: level with the deck to here, natural from there, metres.
+const ABUTMENT: [f64; 2] = [6.0, 26.0];
 /// Half the width of the gorge's floor, metres.
 const FLOOR: f64 = 14.0;
 
@@ -141,8 +143,8 @@ fn gorge(grid: &mut Grid, site: &Site, rim: f64, draws: Draws) {
 /// Levels the ground at the ends of the bridge with its deck.
 fn abutments(grid: &mut Grid, site: &Site, rim: f64) {
     for end in site.ends() {
-        around(grid, end, 32.0, |offset, height| {
-            *height += (1.0 - smooth(12.0, 32.0, length(offset))) * (rim - *height);
+        around(grid, end, ABUTMENT[1], |offset, height| {
+            *height += (1.0 - smooth(ABUTMENT[0], ABUTMENT[1], length(offset))) * (rim - *height);
         });
     }
 }

@@ -98,8 +98,8 @@ fn crossings(grid: &Grid, repeating: bool) -> Vec<Crossing> {
                 let rises = ends.map(|end| (end - centre - RISE).abs());
                 let open = sides.map(|side| (side - centre - 4.0).max(0.0));
                 let rim = (0.5 * (ends[0] + ends[1]) - RIM).abs();
-                let cost =
-                    rises[0] + rises[1] + (ends[0] - ends[1]).abs() + 0.5 * (open[0] + open[1]) + 0.5 * rim;
+                let rim = rim + 2.0 * (rim - 6.0).max(0.0);
+                let cost = rises[0] + rises[1] + (ends[0] - ends[1]).abs() + 0.5 * (open[0] + open[1]) + rim;
                 Crossing { x, y, direction, cost }
             };
             let best = turns.iter().map(cost).reduce(|a, b| if b.cost < a.cost { b } else { a });

@@ -39,6 +39,12 @@ pub fn transform(re: &mut [f64], im: &mut [f64], side: usize, direction: Directi
     let reversed: [usize; LONGEST] =
         std::array::from_fn(|k| (k % side).reverse_bits() >> (usize::BITS - side.trailing_zeros()));
     for first in (0..side).step_by(LANES) {
+        let zero =
+            |part: &[f64]| part.chunks_exact(side).all(|row| row[first..first + LANES] == [0.0; LANES]);
+        if zero(im) && zero(re) {
+            // As in most lines of a spectrum that ends early.
+            continue;
+        }
         for (k, &to) in reversed[..side].iter().enumerate() {
             lines.re[to].copy_from_slice(&re[k * side + first..][..LANES]);
             lines.im[to].copy_from_slice(&im[k * side + first..][..LANES]);

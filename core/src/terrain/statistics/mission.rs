@@ -64,7 +64,8 @@ fn gorge(grid: &Grid, ends: [[f64; 2]; 2], values: &mut Values) -> f64 {
 
 fn flag_line(grid: &Grid, from: [f64; 2], to: [f64; 2], values: &mut Values) {
     let distance = length(minus(to, from));
-    let steps = distance.floor() as usize;
+    // Generated flags stand whole metres apart, but for rounding: which must not decide about the last metre.
+    let steps = (distance + 1e-6).floor() as usize;
     let toward = |metres: f64| {
         let share = metres / distance;
         [from[0] + (to[0] - from[0]) * share, from[1] + (to[1] - from[1]) * share]

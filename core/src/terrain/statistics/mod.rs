@@ -57,28 +57,3 @@ impl Values {
         self.0.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
     }
 }
-/// scratch
-pub fn time_stages(h: &[f64]) {
-    let (g, _) = Grid::read(h).unwrap();
-    let mut v = Values::default();
-    let t = |n: &str, f: &mut dyn FnMut()| {
-        let mut m = f64::INFINITY;
-        for _ in 0..40 {
-            let t = std::time::Instant::now();
-            f();
-            m = m.min(t.elapsed().as_secs_f64() * 1e3);
-        }
-        println!("{n} {m:.3} ms");
-    };
-    t("texture", &mut || texture::measure(&g, &mut v));
-    t("heights", &mut || heights::measure(&g, &mut v));
-    t("structure", &mut || structure::measure(&g, &mut v));
-    t("slopes", &mut || slopes::measure(&g, &mut v));
-    t("creases", &mut || creases::measure(&g, &mut v));
-    t("legs", &mut || legs::measure(&g, &mut v));
-    t("spectrum", &mut || {
-        spectrum::measure(&g, &mut v);
-    });
-    t("descent", &mut || descent::measure(&g, &mut v));
-    t("relief", &mut || relief::measure(&g, &mut v));
-}

@@ -2,7 +2,7 @@
 //!
 //! A water level sinks from the top. Each island is born as a peak; where two islands join, at a saddle, the
 //! one with the lower peak ends, and its prominence is its peak's height above the saddle. The highest peak
-//! of all gets the full range. A hill is a peak of at least 10 m of prominence, a basin a hill of the negated heights.
+//! of all gets the full range. Of equal heights the one stored first counts as the higher. A hill is a peak of at least 10 m of prominence, a basin a hill of the negated heights.
 //!
 //! - `hills_per_km2`, `basins_per_km2`: how many.
 //! - `hill_prom_median_m`: median prominence of the hills.
@@ -28,10 +28,9 @@ pub struct Peak {
 }
 
 pub(super) fn measure(grid: &Grid, values: &mut Values) {
-    let mut order = ascending(grid.heights());
+    let order = ascending(grid.heights());
     let basins = sweep(grid.heights(), &order);
-    order.reverse();
-    let hills = sweep(grid.heights(), &order);
+    let hills = sweep(grid.heights(), &descending(grid.heights(), order));
     values.push("hills_per_km2", hills.len() as f64 / TILE_KM2);
     values.push("basins_per_km2", basins.len() as f64 / TILE_KM2);
     let prominences: Vec<f64> = hills.iter().map(|peak| peak.prominence).collect();
@@ -43,9 +42,7 @@ pub(super) fn measure(grid: &Grid, values: &mut Values) {
 /// All hills of at least 10 m of prominence, from the highest saddle to the lowest; the highest hill comes last.
 #[must_use]
 pub fn hills(grid: &Grid) -> Vec<Peak> {
-    let mut order = ascending(grid.heights());
-    order.reverse();
-    sweep(grid.heights(), &order)
+    sweep(grid.heights(), &descending(grid.heights(), ascending(grid.heights())))
 }
 
 fn nearest(hills: &[Peak], k: usize) -> Option<f64> {
@@ -88,6 +85,14 @@ fn ascending(heights: &[f64]) -> Vec<u16> {
         std::mem::swap(&mut items, &mut spare);
     }
     items.into_iter().map(|(_, k)| k).collect()
+}
+
+/// The same from the highest to the lowest, equal ones still by index.
+fn descending(heights: &[f64], mut order: Vec<u16>) -> Vec<u16> {
+    order.reverse();
+    let height = |at: &u16| heights[usize::from(*at)];
+    order.chunk_by_mut(|a, b| height(a) == height(b)).for_each(<[u16]>::reverse);
+    order
 }
 
 /// Water that sinks from the top: `order` leads from the highest sample to the lowest (or from the lowest to

@@ -15,8 +15,9 @@ use super::triangles::Row;
 pub(super) fn measure(grid: &Grid, values: &mut Values) {
     let mut steepness = Vec::with_capacity(2 * SIDE * SIDE);
     let (mut along_x, mut along_y) = (0.0, 0.0);
+    let mut row = Row::ZERO;
     for y in 0..SIDE {
-        let row = Row::of(grid, y);
+        row.fill(grid, y);
         for triangles in [&row.west, &row.east] {
             steepness.extend((0..SIDE).map(|k| {
                 let (x, y) = (triangles.x[k], triangles.y[k]);
@@ -29,11 +30,17 @@ pub(super) fn measure(grid: &Grid, values: &mut Values) {
     let count = steepness.len() as f64;
     let (mean, deviation) = mean_and_deviation(&steepness);
     values.push("grad_cv", deviation / mean);
-    let share = |test: &dyn Fn(f64) -> bool| steepness.iter().filter(|&&g| test(g)).count() as f64 / count;
-    let [five, thirty, forty_five] = [5.0_f64, 30.0, 45.0].map(|degrees| libm::tan(degrees.to_radians()));
-    values.push("frac_lt5", share(&|g| g < five));
-    values.push("frac_gt30", share(&|g| g > thirty));
-    values.push("frac_gt45", share(&|g| g > forty_five));
+    let [five, thirty] = [5.0_f64, 30.0].map(|degrees| libm::tan(degrees.to_radians()));
+    // One is exact, and quantised heights do come to slopes of exactly 45 degrees.
+    let (mut flat, mut steep, mut very_steep) = (0_u32, 0_u32, 0_u32);
+    for &g in &steepness {
+        flat += u32::from(g < five);
+        steep += u32::from(g > thirty);
+        very_steep += u32::from(g > 1.0);
+    }
+    values.push("frac_lt5", f64::from(flat) / count);
+    values.push("frac_gt30", f64::from(steep) / count);
+    values.push("frac_gt45", f64::from(very_steep) / count);
     values.push("slope_mean_deg", (sum(&steepness, libm::atan) / count).to_degrees());
     values.push("slope_p99_deg", quantile(&steepness, 0.99, |g| libm::atan(g).to_degrees()));
     values.push("grad_ratio_xy", (along_x / along_y).sqrt());

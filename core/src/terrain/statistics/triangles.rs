@@ -20,22 +20,25 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The triangles of row `y` of squares, modulo 256.
-    pub fn of(grid: &Grid, y: usize) -> Self {
+    pub const ZERO: Self = Self { west: Gradients::ZERO, east: Gradients::ZERO };
+
+    /// Becomes the triangles of row `y` of squares, modulo 256. In place: returned by value, the rows would be
+    /// copied, which takes longer than computing them.
+    pub fn fill(&mut self, grid: &Grid, y: usize) {
         let (south, north) = (grid.row(y), grid.row(y + 1));
-        let next = |x: usize| (x + 1) % SIDE;
-        let along = |row: &[f64], x: usize| (row[next(x)] - row[x]) / SQUARE;
-        let even = |x: usize| (x ^ y) & 1 == 0;
-        let up = |x: usize| (north[x] - south[x]) / SQUARE;
-        Self {
-            west: Gradients {
-                x: std::array::from_fn(|x| if even(x) { along(north, x) } else { along(south, x) }),
-                y: std::array::from_fn(up),
-            },
-            east: Gradients {
-                x: std::array::from_fn(|x| if even(x) { along(south, x) } else { along(north, x) }),
-                y: std::array::from_fn(|x| up(next(x))),
-            },
+        for x in 0..SIDE {
+            let next = (x + 1) % SIDE;
+            let along_south = (south[next] - south[x]) / SQUARE;
+            let along_north = (north[next] - north[x]) / SQUARE;
+            let even = (x ^ y) & 1 == 0;
+            self.west.x[x] = if even { along_north } else { along_south };
+            self.east.x[x] = if even { along_south } else { along_north };
+            self.west.y[x] = (north[x] - south[x]) / SQUARE;
+            self.east.y[x] = (north[next] - south[next]) / SQUARE;
         }
     }
+}
+
+impl Gradients {
+    const ZERO: Self = Self { x: [0.0; SIDE], y: [0.0; SIDE] };
 }

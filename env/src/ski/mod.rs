@@ -1,20 +1,24 @@
 //! `SkiBatch`: many ski environments stepped together.
 
-use crate::arrays::{Buffers, Flags, array1, rows, structured};
+use crate::arrays::{Buffers, Flags, array1, structured};
 use crate::errors::refused;
+use crate::pools::pool;
 use crate::simulator::{physics, state_fields};
 use crate::terrain::Terrain;
 use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
-use discjump_core::error::InputError;
 use discjump_core::observe::{CLIP, SkiObservation};
-use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, CourseRequest, Reward, SkiTask};
-use discjump_core::terrain::Maps;
-use glam::DVec2;
+use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, Reward, SkiTask};
 use numpy::ndarray::{Ix1, Ix2};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+
+mod report;
+mod request;
+
+use report::{outcomes, status};
+use request::courses;
 
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
@@ -73,9 +77,9 @@ impl SkiBatch {
             )));
         }
         let (progress, time, arrival) = reward;
-        let fields: Vec<_> = terrains.iter().map(|t| t.heightfield.clone()).collect();
+        let fields: Vec<_> = terrains.iter().map(|t| &t.heightfield).collect();
         let setup = SkiEnvironments {
-            maps: Maps::new(&fields).map_err(refused)?,
+            maps: pool(&fields)?,
             areas: terrains.iter().map(|t| t.area()).collect(),
             count: num_envs,
             fidelity,
@@ -172,41 +176,7 @@ impl SkiBatch {
         terrain: Option<Vec<i64>>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let n = self.batch.len();
-        let mut courses = Vec::new();
-        if start.is_some() || goal.is_some() || terrain.is_some() {
-            courses = vec![CourseRequest::default(); n];
-        }
-        if let Some(start) = start {
-            let (numbers, columns) = rows(py, "start", &start, &[2, 3])?;
-            check_rows("start", numbers.len() / columns, n)?;
-            for (course, row) in courses.iter_mut().zip(numbers.chunks_exact(columns)) {
-                course.start = point("start", row)?;
-                course.height = row.get(2).copied().filter(|z| course.start.is_some() && !z.is_nan());
-            }
-        }
-        if let Some(goal) = goal {
-            let (numbers, columns) = rows(py, "goal", &goal, &[2])?;
-            check_rows("goal", numbers.len() / columns, n)?;
-            for (course, row) in courses.iter_mut().zip(numbers.chunks_exact(columns)) {
-                course.goal = point("goal", row)?;
-            }
-        }
-        if let Some(terrain) = terrain {
-            check_rows("terrain", terrain.len(), n)?;
-            for (course, &index) in courses.iter_mut().zip(&terrain) {
-                course.map = match index {
-                    -1 => None,
-                    _ => Some(usize::try_from(index).ok().filter(|&i| i < self.max_terrain).ok_or_else(
-                        || {
-                            PyValueError::new_err(format!(
-                                "terrain: expected -1 or 0 to {}, got {index}",
-                                self.max_terrain - 1
-                            ))
-                        },
-                    )?),
-                };
-            }
-        }
+        let courses = courses(py, n, self.max_terrain, start, goal, terrain)?;
         if seeds.as_ref().is_some_and(|s| s.len() != n) || mask.as_ref().is_some_and(|m| m.len() != n) {
             return Err(PyValueError::new_err(format!("seeds, mask: expected {n}, one per environment")));
         }
@@ -241,12 +211,15 @@ impl SkiBatch {
             ActionKind::Box => "float32",
         };
         let got = py.import("numpy")?.call_method1("asarray", (actions,))?;
-        Err(PyTypeError::new_err(format!(
-            "actions: expected an array of {wanted}, shape ({}, {ACTION_SIZE}), got {} {}",
+        let (dtype, shape) = (got.getattr("dtype")?, got.getattr("shape")?);
+        let message = format!(
+            "actions: expected an array of {wanted}, shape ({}, {ACTION_SIZE}), got {dtype} {shape}",
             self.batch.len(),
-            got.getattr("dtype")?,
-            got.getattr("shape")?,
-        )))
+        );
+        if wanted.contains(&dtype.to_string()) && shape.len()? != 2 {
+            return Err(PyValueError::new_err(message));
+        }
+        Err(PyTypeError::new_err(message))
     }
 
     /// Indices of the environments whose episode ended in the last step, ascending, int64.
@@ -262,33 +235,12 @@ impl SkiBatch {
 
     /// How they ended: structured, shape (len(finished),).
     fn outcomes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let mut bytes = Vec::new();
-        for (_, o) in self.batch.finished() {
-            bytes.extend([o.success, o.death, o.timeout].map(u8::from));
-            bytes.extend(o.time.to_le_bytes());
-            bytes.extend(o.total_reward.to_le_bytes());
-            bytes.extend(o.length.to_le_bytes());
-            for x in [o.top_speed, o.mean_speed, o.path, o.damage, o.distance, o.start_distance] {
-                bytes.extend(x.to_le_bytes());
-            }
-            bytes.extend(o.terrain.to_le_bytes());
-            bytes.extend(o.seed.to_le_bytes());
-            bytes.extend(o.episode.to_le_bytes());
-        }
-        structured(py, &OUTCOME, &bytes)
+        outcomes(py, self.batch.finished())
     }
 
     /// distance (m), speed (m/s), time (s), outside (the mission area), terrain: structured, (num_envs,).
     fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let mut bytes = Vec::new();
-        for s in self.batch.status() {
-            for x in [s.distance, s.speed, s.time] {
-                bytes.extend((x as f32).to_le_bytes());
-            }
-            bytes.push(u8::from(s.outside));
-            bytes.extend((s.terrain as i32).to_le_bytes());
-        }
-        structured(py, &STATUS, &bytes)
+        status(py, &self.batch.status())
     }
 
     /// All players' states, as `Simulator.state()`.
@@ -363,34 +315,6 @@ impl SkiBatch {
     }
 }
 
-/// The dtype of `outcomes()`.
-const OUTCOME: [(&str, &str, usize); 15] = [
-    ("success", "?", 1),
-    ("death", "?", 1),
-    ("timeout", "?", 1),
-    ("time", "<f8", 1),
-    ("total_reward", "<f8", 1),
-    ("length", "<i8", 1),
-    ("top_speed", "<f8", 1),
-    ("mean_speed", "<f8", 1),
-    ("path", "<f8", 1),
-    ("damage", "<f8", 1),
-    ("distance", "<f8", 1),
-    ("start_distance", "<f8", 1),
-    ("terrain", "<i8", 1),
-    ("seed", "<u8", 1),
-    ("episode", "<u8", 1),
-];
-
-/// The dtype of `status()`.
-const STATUS: [(&str, &str, usize); 5] = [
-    ("distance", "<f4", 1),
-    ("speed", "<f4", 1),
-    ("time", "<f4", 1),
-    ("outside", "?", 1),
-    ("terrain", "<i4", 1),
-];
-
 fn action_kind(name: &str) -> PyResult<ActionKind> {
     match name {
         "multi_discrete" => Ok(ActionKind::MultiDiscrete),
@@ -408,24 +332,6 @@ fn autoreset_mode(name: &str) -> PyResult<Autoreset> {
         "disabled" => Ok(Autoreset::Disabled),
         _ => Err(PyValueError::new_err(format!(
             "autoreset: expected \"next_step\", \"same_step\" or \"disabled\", got {name:?}"
-        ))),
-    }
-}
-
-fn check_rows(name: &str, got: usize, expected: usize) -> PyResult<()> {
-    if got == expected {
-        return Ok(());
-    }
-    Err(refused(InputError(format!("{name}: expected {expected} rows, one per environment, got {got}"))))
-}
-
-/// A point, or nothing where the row is NaN.
-fn point(name: &str, row: &[f64]) -> PyResult<Option<DVec2>> {
-    match (row[0].is_nan(), row[1].is_nan()) {
-        (true, true) => Ok(None),
-        (false, false) if row[0].is_finite() && row[1].is_finite() => Ok(Some(DVec2::new(row[0], row[1]))),
-        _ => Err(PyValueError::new_err(format!(
-            "{name}: expected finite coordinates in metres, or a row of NaN to draw it, got {row:?}"
         ))),
     }
 }

@@ -1,0 +1,104 @@
+//! What the batch of ski episodes promises, whatever its tier.
+
+use crate::error::InputError;
+use crate::observe::LayoutField;
+use crate::player::Field;
+use crate::task::{ActionKind, Actions, CourseRequest, Outcome};
+
+/// When an environment whose episode ended begins the next one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Autoreset {
+    /// In the step after the one that ended it, whose action is ignored.
+    NextStep,
+    /// In the step that ended it, which returns the next episode's first observation.
+    SameStep,
+    /// When the user resets it; until then it stays as it ended.
+    Disabled,
+}
+
+/// What a reset asks for. Every list is empty (nothing asked) or has one entry per environment.
+#[derive(Clone, Debug, Default)]
+pub struct ResetRequest {
+    /// New seeds; without them each environment goes on to its next episode.
+    pub seeds: Vec<u64>,
+    /// Which environments to reset; all where empty.
+    pub mask: Vec<bool>,
+    /// Fixed parts of the episodes; drawn where empty.
+    pub courses: Vec<CourseRequest>,
+}
+
+/// Where a step writes: one entry (or row) per environment.
+#[derive(Debug)]
+pub struct StepOutput<'a> {
+    /// Observations, row by row.
+    pub observations: &'a mut [f32],
+    /// Rewards.
+    pub rewards: &'a mut [f64],
+    /// Whether the episode ended by arrival or death.
+    pub terminated: &'a mut [bool],
+    /// Whether the episode ended by the clock.
+    pub truncated: &'a mut [bool],
+}
+
+/// What is reported of an environment at any time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Status {
+    /// Horizontal distance to the beacon, m.
+    pub distance: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Seconds played.
+    pub time: f64,
+    /// Whether the player is outside the mission area.
+    pub outside: bool,
+    /// Which map of the pool.
+    pub terrain: usize,
+}
+/// What every batch of environments can do, whatever its tier.
+pub trait Environments: Send + Sync {
+    /// How many environments.
+    fn len(&self) -> usize;
+    /// Whether there is none: never.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Numbers in an observation.
+    fn observation_size(&self) -> usize;
+    /// The layout of an observation.
+    fn layout(&self) -> Vec<LayoutField>;
+    /// The kind of action that [`Environments::step`] takes.
+    fn action_kind(&self) -> ActionKind;
+    /// Begins episodes, and writes the observations of all environments.
+    ///
+    /// # Errors
+    /// If the request is malformed; then nothing was changed.
+    fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError>;
+    /// One decision of every environment.
+    ///
+    /// # Errors
+    /// If actions or outputs are malformed, or an environment was never reset; then nothing was changed.
+    fn step(&mut self, actions: Actions<'_>, output: StepOutput<'_>) -> Result<(), InputError>;
+    /// Which environments' episodes ended in the last step, and how, in ascending order.
+    fn finished(&self) -> &[(usize, Outcome)];
+    /// Their last observations, row by row.
+    fn final_observations(&self) -> &[f32];
+    /// Status of every environment.
+    fn status(&self) -> Vec<Status>;
+    /// World position of every beacon, m.
+    fn goals(&self) -> Vec<[f64; 3]>;
+    /// The fields of a player's state after `position` (three f64), packed.
+    fn state_fields(&self) -> Vec<Field>;
+    /// All players' states, packed.
+    fn state(&self) -> Vec<u8>;
+    /// Bytes that one environment takes in memory, beside its observation row.
+    fn bytes_per_environment(&self) -> usize;
+    /// Everything, as bytes that [`Environments::restore`] takes.
+    fn snapshot(&self) -> Vec<u8>;
+    /// Goes back to a snapshot.
+    ///
+    /// # Errors
+    /// If it is damaged, or of another layout or count; then nothing was changed.
+    fn restore(&mut self, snapshot: &[u8]) -> Result<(), InputError>;
+    /// XXH3-128 of all environments, as 32 hexadecimal digits.
+    fn digest(&self) -> String;
+}

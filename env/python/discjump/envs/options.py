@@ -1,0 +1,221 @@
+"""Options of the ski task, in one typed place."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from discjump import _check
+from discjump._native import SkiBatch, Terrain
+from discjump.simulator import Physics
+from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
+
+REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
+"""Default weights: per metre nearer to the beacon, per second, once on arrival."""
+
+FAN_BEARINGS = (0.0, 30.0, -30.0)
+"""Default bearings of the fan of terrain heights, degrees, 0 ahead, positive left: chosen by what learns
+best (README, Results)."""
+
+FAN_RANGES = (10.0, 25.0, 50.0, 90.0)
+"""Default ranges of the fan of terrain heights, m."""
+
+ACTIONS = ("multi_discrete", "box")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SkiOptions:
+    """Keyword arguments of `discjump/Ski-v0`, checked and normalised when made.
+
+    Raises:
+        TypeError: an argument of the wrong type, or an unknown one (through `from_keywords`).
+        ValueError: an argument out of its range; the message names it, what was expected and what came.
+
+    >>> SkiOptions(frame_skip=2).decision_seconds
+    0.064
+    >>> SkiOptions(time_limit=-1)
+    Traceback (most recent call last):
+    ValueError: time_limit: expected a number in (0, 3600] s, got -1
+    """
+
+    terrain_seeds: Sequence[int] = TRAINING_SEEDS
+    """Seeds of the generated terrains that episodes draw from; 16 by default, 0.5 MB of heights each."""
+
+    repeating: bool = False
+    """Generated terrains repeat a cell of 512 m instead of 2,048 m."""
+
+    terrains: Sequence[Terrain] | None = None
+    """Terrains to draw from in place of generated ones, all of one size."""
+
+    fidelity: str = "authentic"
+    """Fidelity tier: `authentic` (float32) or `reference` (float64)."""
+
+    armor: str = "light"
+    """Armor of the player."""
+
+    energy_pack: bool = False
+    """The player wears an energy pack."""
+
+    physics: Physics = field(default_factory=Physics)
+    """Switches of the movement model."""
+
+    tick_ms: int = 32
+    """Length of a tick, milliseconds."""
+
+    frame_skip: int = 4
+    """Ticks per decision, 1 to 64."""
+
+    actions: str = "multi_discrete"
+    """`multi_discrete` (bins) or `box` (float32 in [-1, 1])."""
+
+    turn_rate: float = 2.34375
+    """Largest turn rate, rad/s."""
+
+    time_limit: float = 60.0
+    """Length of an episode, s; it ends truncated."""
+
+    arrival_radius: float = 8.0
+    """Horizontal distance of the path to the beacon that counts as arrival, m."""
+
+    goal_distance: tuple[float, float] = (300.0, 800.0)
+    """Least and largest horizontal distance from start to beacon when they are drawn, m."""
+
+    start_speed: float = 10.0
+    """Largest speed at the start, m/s; 0: always at rest."""
+
+    reward: Mapping[str, float] = field(default_factory=lambda: REWARD)
+    """Weights that differ from `REWARD`: `progress` (per m), `time` (per s), `arrival`."""
+
+    fan_bearings: Sequence[float] | NDArray[np.float64] = FAN_BEARINGS
+    """Bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan.
+    """
+
+    fan_ranges: Sequence[float] | NDArray[np.float64] = FAN_RANGES
+    """Ranges of the fan of terrain heights, m; empty: no fan."""
+
+    landing: bool = True
+    """Observe features of the ballistic landing."""
+
+    def __post_init__(self) -> None:
+        """Check and normalise every field."""
+        put = object.__setattr__
+        put(self, "terrain_seeds", checked_seeds(self.terrain_seeds))
+        put(self, "repeating", _check.flag("repeating", self.repeating))
+        put(self, "terrains", _terrains(self.terrains))
+        put(self, "energy_pack", _check.flag("energy_pack", self.energy_pack))
+        if not isinstance(self.physics, Physics):
+            raise TypeError(f"physics: expected a discjump.Physics, got {self.physics!r}")
+        put(self, "frame_skip", _check.integer("frame_skip", self.frame_skip, 1, 64))
+        put(self, "tick_ms", _check.integer("tick_ms", self.tick_ms, 1, 1000))
+        _check.choice("actions", self.actions, ACTIONS)
+        put(self, "turn_rate", _check.real("turn_rate", self.turn_rate, 0, 100, "rad/s", open_low=True))
+        put(self, "time_limit", _check.real("time_limit", self.time_limit, 0, 3600, "s", open_low=True))
+        radius = _check.real("arrival_radius", self.arrival_radius, 0, 1000, "m", open_low=True)
+        put(self, "arrival_radius", radius)
+        put(self, "goal_distance", _goal_distance(self.goal_distance))
+        put(self, "start_speed", _check.real("start_speed", self.start_speed, 0, 100, "m/s"))
+        put(self, "reward", _reward(self.reward))
+        put(self, "fan_bearings", _fan("fan_bearings", self.fan_bearings, -180, 180, "degrees"))
+        put(self, "fan_ranges", _fan("fan_ranges", self.fan_ranges, 1, 2000, "m"))
+        put(self, "landing", _check.flag("landing", self.landing))
+
+    @classmethod
+    def from_keywords(cls, keywords: Mapping[str, Any]) -> Self:
+        """Options from keyword arguments; an unknown one raises a TypeError that lists the known ones.
+
+        >>> SkiOptions.from_keywords({"frameskip": 2})
+        Traceback (most recent call last):
+        TypeError: frameskip: expected one of the options terrain_seeds, ..., got an unknown one; did you mean
+            'frame_skip'?
+        """
+        names = [f.name for f in fields(cls)]
+        for key in keywords:
+            if key not in names:
+                raise TypeError(
+                    f"{key}: expected one of the options {', '.join(names)}, got an unknown one"
+                    f"{_check.nearest(key, names)}"
+                )
+        return cls(**keywords)
+
+    @property
+    def decision_seconds(self) -> float:
+        """Time between two decisions, s."""
+        return self.tick_ms * self.frame_skip / 1000
+
+    def pool(self) -> list[Terrain]:
+        """The terrains that episodes draw from."""
+        return list(self.terrains) if self.terrains is not None else pool(self.terrain_seeds, self.repeating)
+
+    def batch(self, num_envs: int, autoreset: str, threads: int | None) -> SkiBatch:
+        """The simulator of `num_envs` environments.
+
+        Args:
+            num_envs: at least 1.
+            autoreset: `next_step`, `same_step` or `disabled`.
+            threads: threads that step the batch, at least 1; None: one per core.
+        """
+        if threads is not None:
+            threads = _check.integer("threads", threads, 1, 1024)
+        return SkiBatch(
+            self.pool(),
+            _check.integer("num_envs", num_envs, 1, 2**24),
+            fidelity=self.fidelity,
+            armor=self.armor,
+            energy_pack=self.energy_pack,
+            physics=(self.physics.ski_bug, self.physics.hysteresis),
+            tick_ms=self.tick_ms,
+            frame_skip=self.frame_skip,
+            actions=self.actions,
+            turn_rate=self.turn_rate,
+            time_limit=self.time_limit,
+            arrival_radius=self.arrival_radius,
+            goal_distance=self.goal_distance,
+            start_speed=self.start_speed,
+            reward=(self.reward["progress"], self.reward["time"], self.reward["arrival"]),
+            fan_bearings=list(self.fan_bearings),
+            fan_ranges=list(self.fan_ranges),
+            landing=self.landing,
+            autoreset=autoreset,
+            threads=threads,
+        )
+
+
+def _reward(weights: object) -> dict[str, float]:
+    if not isinstance(weights, Mapping):
+        raise TypeError(f"reward: expected a mapping of weights, got {weights!r}")
+    _check.known("reward", weights, REWARD)
+    checked = {
+        name: _check.real(f"reward[{name!r}]", weight, -1e6, 1e6, "") for name, weight in weights.items()
+    }
+    return REWARD | checked
+
+
+def _terrains(terrains: object) -> tuple[Terrain, ...] | None:
+    if terrains is None:
+        return None
+    checked = _check.sequence("terrains", terrains, "Terrain")
+    for i, terrain in enumerate(checked):
+        if not isinstance(terrain, Terrain):
+            raise TypeError(
+                f"terrains[{i}]: expected a Terrain, got {terrain!r} of type {type(terrain).__name__}"
+            )
+    if not checked:
+        raise ValueError("terrains: expected at least one Terrain, got none")
+    return tuple(checked)
+
+
+def _goal_distance(span: object) -> tuple[float, float]:
+    ends = _check.sequence("goal_distance", span, "two numbers in m")
+    if len(ends) != 2:
+        raise ValueError(f"goal_distance: expected two numbers in m, got {len(ends)}")
+    low, high = (_check.real(f"goal_distance[{i}]", end, 0, 1e5, "m") for i, end in enumerate(ends))
+    if low > high:
+        raise ValueError(f"goal_distance: expected least <= largest, got ({low:g}, {high:g})")
+    return low, high
+
+
+def _fan(name: str, values: object, low: float, high: float, unit: str) -> tuple[float, ...]:
+    numbers = _check.sequence(name, values, f"numbers in {unit}")
+    return tuple(_check.real(f"{name}[{i}]", value, low, high, unit) for i, value in enumerate(numbers))

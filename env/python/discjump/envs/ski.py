@@ -1,0 +1,135 @@
+"""`discjump/Ski-v0` for one environment."""
+
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from gymnasium.error import ResetNeeded
+from numpy.typing import NDArray
+
+from discjump._native import Terrain
+from discjump.envs import infos
+from discjump.envs.options import SkiOptions
+from discjump.envs.task import ObservationField, SkiTask, seeds_of
+
+RENDER_MODES = ("rgb_array",)
+
+
+def checked_render_mode(mode: object) -> str | None:
+    """`mode` if it is one of the render modes or None; a ValueError else."""
+    if mode is None:
+        return None
+    if mode not in RENDER_MODES:
+        raise ValueError(f"render_mode: expected 'rgb_array' or None, got {mode!r}")
+    return str(mode)
+
+
+class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
+    """Ski to the beacon, as fast as you can.
+
+    An episode starts in the mission area of a terrain from the pool, at rest or at a small speed, with the
+    beacon 300-800 m away. It terminates on arrival or on death by landing damage, and is truncated after 60
+    s. An action holds for `frame_skip` ticks.
+
+    Args:
+        render_mode: None or `rgb_array`, the command map.
+        **options: fields of `discjump.envs.options.SkiOptions`.
+
+    Attributes:
+        observation_space: `Box` of shape (size,), float32; `observation_layout` says what each number is.
+        action_space: `MultiDiscrete` of forward, strafe, jump, jet, turn, or `Box` with `actions="box"`.
+        observation_layout: list of (name, slice, unit, scale); value in unit = observation * scale.
+
+    Raises:
+        TypeError, ValueError: naming the option, what was expected and what came.
+
+    >>> import gymnasium, discjump
+    >>> env = gymnasium.make("discjump/Ski-v0", terrain_seeds=[0])
+    >>> observation, info = env.reset(seed=1, options={"start": (0.0, 0.0), "goal": (0.0, 400.0)})
+    >>> round(info["distance"])
+    400
+    >>> observation, reward, terminated, truncated, info = env.step(np.array([2, 1, 1, 0, 3]))
+    >>> sorted(info)
+    ['distance', 'outside_mission_area', 'speed', 'time']
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 7.8125}  # type: ignore[misc]
+
+    def __init__(self, *, render_mode: str | None = None, **options: Any) -> None:
+        self.render_mode = checked_render_mode(render_mode)
+        self.options = SkiOptions.from_keywords(options)
+        self.metadata = {**type(self).metadata, "render_fps": 1 / self.options.decision_seconds}  # type: ignore[misc]
+        self._task = SkiTask(
+            self.options, 1, autoreset="disabled", threads=1, render=self.render_mode is not None
+        )
+        self.observation_space = self._task.observation_space
+        self.action_space = self._task.action_space
+
+    @property
+    def observation_layout(self) -> list[ObservationField]:
+        """Fields of the observation in their order."""
+        return self._task.observation_layout
+
+    @property
+    def terrain(self) -> Terrain:
+        """The terrain of the episode."""
+        return self._task.terrain()
+
+    def state(self) -> np.void:
+        """A copy of the player's state, structured: position, velocity, yaw, energy and so on, as in
+        `Simulator.state`.
+        """
+        state: np.void = self._task.batch.state()[0]
+        return state
+
+    def goal(self) -> NDArray[np.float64]:
+        """Position of the beacon on the ground, (3,), m."""
+        goal: NDArray[np.float64] = self._task.batch.goals()[0]
+        return goal
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Start an episode.
+
+        Args:
+            seed: 0 to 2**64 - 1; None: the next episode of the last seed.
+            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y) in m, `terrain_seed` from the pool; what
+                is left out is drawn.
+
+        Returns:
+            Observation (size,) float32, and info (see `discjump.envs.infos`).
+        """
+        seeds = seeds_of(seed, 1)
+        observations = self._task.reset(seeds, options=options)
+        super().reset(seed=seeds[0])
+        return observations[0], infos.row(infos.now(self._task.batch.status()))
+
+    def step(self, action: object) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """One decision.
+
+        Args:
+            action: (5,), an element of `action_space`; an array must have an integer dtype (float32 with
+                `actions="box"`).
+
+        Returns:
+            Observation (size,) float32, reward, terminated, truncated, info.
+
+        Raises:
+            gymnasium.error.ResetNeeded: before the first reset and after an episode's end.
+            TypeError, ValueError: the action has another dtype or shape, or is out of range; nothing has
+            changed then.
+        """
+        if not self._task.ready or self._task.over[0]:
+            raise ResetNeeded("step: expected a call of reset() first: no episode is running")
+        given = np.asarray(action)
+        if not isinstance(action, np.ndarray) and self.options.actions == "box" and given.dtype.kind in "if":
+            given = given.astype(np.float32)
+        observations, rewards, terminated, truncated = self._task.step(given[np.newaxis])
+        over, batch = self._task.over[0], self._task.batch
+        info = infos.row(infos.at_end(batch.outcomes()) if over else infos.now(batch.status()))
+        return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The command map, (height, width, 3) uint8, north up; None without `render_mode`."""
+        return None if self.render_mode is None else self._task.render()

@@ -1,0 +1,183 @@
+"""What the three front ends (single, vector, stable-baselines3) share: the batch, its spaces, its seeds."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from discjump import _check
+from discjump._native import Terrain
+from discjump.envs import placement
+from discjump.envs.options import SkiOptions
+from discjump.envs.render import Camera
+
+Seeds = Sequence[int | None]
+
+
+class ObservationField(NamedTuple):
+    """One field of the flat observation."""
+
+    name: str
+    slice: slice
+    unit: str
+    scale: float
+    """Value in `unit` = observation * scale. A field that is not linear has unit "" and scale 1."""
+
+
+class SkiTask:
+    """A batch of ski environments with its spaces.
+
+    Args:
+        options: of the task.
+        num_envs: number of environments.
+        autoreset: `next_step`, `same_step` or `disabled`.
+        threads: that step the batch; None: one per core.
+        render: record the paths that pictures show.
+    """
+
+    def __init__(
+        self, options: SkiOptions, num_envs: int, *, autoreset: str, threads: int | None, render: bool = False
+    ) -> None:
+        self.options = options
+        self.terrains: list[Terrain] = options.pool()
+        self.terrain_seeds = [terrain.seed for terrain in self.terrains]
+        self.batch = options.batch(num_envs, autoreset, threads)
+        self.num_envs = num_envs
+        self.autoreset = autoreset
+        self.over = np.zeros(num_envs, np.bool_)
+        """(num_envs,): the last step ended the episode."""
+        self._seeded = np.zeros(num_envs, np.bool_)
+        self._camera = Camera(self.batch, self.terrains, options.arrival_radius) if render else None
+
+        size, clip = self.batch.observation_size, self.batch.observation_clip
+        self.observation_space = spaces.Box(-clip, clip, (size,), np.float32)
+        self.action_space: spaces.MultiDiscrete | spaces.Box
+        if options.actions == "box":
+            self.action_space = spaces.Box(-1.0, 1.0, (self.batch.action_size,), np.float32)
+        else:
+            self.action_space = spaces.MultiDiscrete(self.batch.action_bins)
+        self.observation_layout = [
+            ObservationField(name, slice(start, stop), unit, scale)
+            for name, start, stop, unit, scale in self.batch.layout
+        ]
+
+    @property
+    def ready(self) -> bool:
+        """Every environment was reset at least once."""
+        return bool(self._seeded.all())
+
+    def reset(
+        self,
+        seeds: Seeds,
+        mask: NDArray[np.bool_] | None = None,
+        options: Mapping[str, Any] | None = None,
+        *,
+        batched: bool = False,
+    ) -> NDArray[np.float32]:
+        """Start new episodes and return the observations of all environments, (num_envs, size) float32.
+
+        Args:
+            seeds: one per environment; None: its next episode, or a seed from the operating system if it
+                never had one.
+            mask: (num_envs,), the environments to reset; None: all.
+            options: see `placement.parse`.
+            batched: `options` may hold one row per environment.
+        """
+        where = placement.parse(options, self.terrain_seeds, self.num_envs, batched=batched)
+        chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask.copy()
+        given = np.array([seed is not None for seed in seeds])
+        values = np.array([seed or 0 for seed in seeds], np.uint64)
+        fresh = chosen & ~given & ~self._seeded
+        if fresh.any():
+            values[fresh] = np.random.SeedSequence().generate_state(int(fresh.sum()), np.uint64)
+        seeded, following = chosen & (given | fresh), chosen & ~given & ~fresh
+        observations = self._reset(values, seeded, following, where)
+        self._seeded |= chosen
+        self.over &= ~chosen
+        if self._camera is not None:
+            self._camera.restart(chosen)
+        return observations
+
+    def _reset(
+        self,
+        seeds: NDArray[np.uint64],
+        seeded: NDArray[np.bool_],
+        following: NDArray[np.bool_],
+        where: placement.Placement,
+    ) -> NDArray[np.float32]:
+        places = where._asdict()
+        if not following.any():
+            return self.batch.reset(seeds, seeded, **places)
+        if not seeded.any():
+            return self.batch.reset(None, following, **places)
+        # Two calls must change all or nothing.
+        before = self.batch.snapshot()
+        try:
+            self.batch.reset(seeds, seeded, **places)
+            return self.batch.reset(None, following, **places)
+        except BaseException:
+            self.batch.restore(before)
+            raise
+
+    def step(
+        self, actions: NDArray[Any]
+    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
+        """One decision: observations (n, size) float32, rewards (n,) float64, terminated and truncated (n,)
+        bool.
+        """
+        result = self.batch.step(actions)
+        ended = result[2] | result[3]
+        if self._camera is not None:
+            if self.autoreset == "same_step":
+                self._camera.advance(ended)
+            else:
+                self._camera.advance(self.over if self.autoreset == "next_step" else np.zeros_like(ended))
+        self.over = ended
+        return result
+
+    def restore(self, snapshot: bytes) -> None:
+        """Put the batch back to a snapshot of itself, or of one with the same options."""
+        self.batch.restore(snapshot)
+        self.over[:] = False
+        self._seeded[:] = True
+        if self._camera is not None:
+            self._camera.restart(np.ones(self.num_envs, np.bool_))
+
+    def render(self, index: int = 0) -> NDArray[np.uint8]:
+        """The command map of one environment, (height, width, 3) uint8."""
+        if self._camera is None:
+            raise ValueError("render_mode: expected 'rgb_array' for pictures, got None")
+        return self._camera.picture(index)
+
+    def terrain(self, index: int = 0) -> Terrain:
+        """The terrain of one environment's episode."""
+        return self.terrains[int(self.batch.status()["terrain"][index])]
+
+
+def seeds_of(seed: object, num_envs: int) -> Seeds:
+    """Seeds of all environments: an int s means s, s + 1, ...; a list is taken as given; None is the next
+    episode.
+
+    Raises:
+        TypeError: neither integer, sequence of integers and None, nor None.
+        ValueError: wrong length, or a seed outside 0 to 2**64 - 1.
+
+    >>> seeds_of(5, 3)
+    [5, 6, 7]
+    >>> seeds_of([1, None], 3)
+    Traceback (most recent call last):
+    ValueError: seed: expected 3 seeds, one per environment, got 2
+    """
+    if seed is None:
+        return [None] * num_envs
+    if isinstance(seed, (Sequence, np.ndarray)) and not isinstance(seed, (str, bytes)):
+        if len(seed) != num_envs:
+            raise ValueError(f"seed: expected {num_envs} seeds, one per environment, got {len(seed)}")
+        return [
+            None if one is None else _check.integer(f"seed[{i}]", one, 0, _check.SEEDS - 1)
+            for i, one in enumerate(seed)
+        ]
+    first = _check.integer("seed", seed, 0, _check.SEEDS - num_envs)
+    return list(range(first, first + num_envs))

@@ -1,0 +1,221 @@
+"""`discjump/Ski-v0` for many environments, stepped together in Rust."""
+
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from discjump._native import Terrain
+from discjump.envs import infos
+from discjump.envs.options import SkiOptions
+from discjump.envs.ski import RENDER_MODES, checked_render_mode
+from discjump.envs.task import ObservationField, SkiTask, seeds_of
+
+AUTORESET = {
+    AutoresetMode.NEXT_STEP: "next_step",
+    AutoresetMode.SAME_STEP: "same_step",
+    AutoresetMode.DISABLED: "disabled",
+}
+
+Step = tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
+
+
+class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
+    """Environments that behave, bit for bit, as gymnasium's `SyncVectorEnv` over as many `SkiEnv`.
+
+    An environment with seed s gives the same bits at any index, among any number of others, on any number of
+    threads. What `reset` and `step` return never changes afterwards: a buffer is used again only when nobody
+    holds it any more.
+
+    Args:
+        num_envs: number of environments.
+        autoreset_mode: `AutoresetMode` or its value. `NEXT_STEP` (default): the step after an episode's end
+            ignores the action and returns the next episode's first observation with reward 0. `SAME_STEP`:
+            the step that ends an episode returns it already, and `info["final_obs"]`, `info["final_info"]`
+            hold what was last. `DISABLED`: reset by hand with `options={"reset_mask": ...}`.
+        threads: threads that step the batch; None: one per core.
+        render_mode: None or `rgb_array`, the command maps.
+        **options: fields of `discjump.envs.options.SkiOptions`.
+
+    Raises:
+        TypeError, ValueError: naming the option, what was expected and what came.
+
+    >>> import gymnasium, discjump
+    >>> envs = gymnasium.make_vec("discjump/Ski-v0", num_envs=3, terrain_seeds=[0])
+    >>> observations, info = envs.reset(seed=7)
+    >>> observations.dtype, info["distance"].shape
+    (dtype('float32'), (3,))
+    >>> actions = np.tile([2, 1, 1, 0, 3], (3, 1))
+    >>> observations, rewards, terminations, truncations, info = envs.step(actions)
+    >>> rewards.dtype, terminations.shape
+    (dtype('float64'), (3,))
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+        "render_modes": list(RENDER_MODES),
+        "render_fps": 7.8125,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        threads: int | None = None,
+        render_mode: str | None = None,
+        **options: Any,
+    ) -> None:
+        self.render_mode = checked_render_mode(render_mode)
+        self.autoreset_mode = _checked_autoreset_mode(autoreset_mode)
+        self.options = SkiOptions.from_keywords(options)
+        self.metadata = {  # type: ignore[misc]
+            **type(self).metadata,
+            "render_fps": 1 / self.options.decision_seconds,
+            "autoreset_mode": self.autoreset_mode,
+        }
+        self._task = SkiTask(
+            self.options,
+            num_envs,
+            autoreset=AUTORESET[self.autoreset_mode],
+            threads=threads,
+            render=self.render_mode is not None,
+        )
+        self.num_envs = num_envs
+        self.single_observation_space = self._task.observation_space
+        self.single_action_space = self._task.action_space
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    @property
+    def observation_layout(self) -> list[ObservationField]:
+        """Fields of one observation in their order."""
+        return self._task.observation_layout
+
+    @property
+    def terrains(self) -> list[Terrain]:
+        """The pool that episodes draw from."""
+        return self._task.terrains
+
+    @property
+    def terrain_index(self) -> NDArray[np.int64]:
+        """(num_envs,): which terrain of the pool each episode runs on."""
+        return self._task.batch.status()["terrain"].astype(np.int64)
+
+    def state(self) -> NDArray[np.void]:
+        """The players, (num_envs,), a copy: position (m), velocity (m/s), yaw (rad), energy and so on."""
+        return self._task.batch.state()
+
+    def goals(self) -> NDArray[np.float64]:
+        """The beacons on the ground, (num_envs, 3), m."""
+        return self._task.batch.goals()
+
+    def reset(
+        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Start episodes.
+
+        Args:
+            seed: an int s gives environment i the seed s + i; a list one each; None (in the list too): its
+                next episode, or a seed from the operating system if it never had one.
+            options: `start`, `goal`, `terrain_seed` as for one environment, or one row each: (num_envs, 2)
+                and so on, where a row of NaN is drawn; `reset_mask`, (num_envs,) bool with at least one True:
+                only these are reset.
+
+        Returns:
+            Observations of all environments, (num_envs, size) float32, and info; its `_key` masks say which
+            were reset.
+        """
+        mask = _checked_mask(options, self.num_envs)
+        observations = self._task.reset(seeds_of(seed, self.num_envs), mask, options, batched=True)
+        if isinstance(seed, (int, np.integer)):
+            super().reset(seed=int(seed))
+        chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask
+        return observations, infos.masked(infos.now(self._task.batch.status()), chosen)
+
+    def step(self, actions: NDArray[Any]) -> Step:
+        """One decision of every environment.
+
+        Args:
+            actions: (num_envs, 5), integer (float32 with `actions="box"`).
+
+        Returns:
+            Observations (num_envs, size) float32, rewards (num_envs,) float64, terminations and truncations
+            (num_envs,) bool, info: columns as in `discjump.envs.infos` with gymnasium's `_key` masks.
+
+        Raises:
+            gymnasium.error.ResetNeeded: before the first reset; with `DISABLED`, while an episode that ended
+            was not reset. TypeError, ValueError: the actions have another dtype or shape, or are out of
+            range; nothing has changed then.
+        """
+        task = self._task
+        if not task.ready:
+            raise ResetNeeded("step: expected a call of reset() of every environment first")
+        if self.autoreset_mode is AutoresetMode.DISABLED and task.over.any():
+            ended = np.flatnonzero(task.over)
+            raise ResetNeeded(
+                f"step: expected a reset of the {len(ended)} environments whose episode ended first "
+                f"(the first of them is {ended[0]})"
+            )
+        observations, rewards, terminations, truncations = task.step(np.asarray(actions))
+        return observations, rewards, terminations, truncations, self._info()
+
+    def _info(self) -> dict[str, Any]:
+        batch = self._task.batch
+        rows = batch.finished()
+        columns = infos.now(batch.status())
+        everyone = np.ones(self.num_envs, np.bool_)
+        if not len(rows):
+            return infos.masked(columns, everyone)
+
+        ended = np.zeros(self.num_envs, np.bool_)
+        ended[rows] = True
+        last = infos.spread(infos.at_end(batch.outcomes()), rows, self.num_envs)
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            final = np.full(self.num_envs, None, dtype=object)
+            for row, observation in zip(rows, batch.final_observations(), strict=True):
+                final[row] = observation
+            return infos.masked(columns, everyone) | {
+                "final_obs": final,
+                "_final_obs": ended.copy(),
+                "final_info": infos.masked(last, ended),
+                "_final_info": ended,
+            }
+        for key in infos.STEP:
+            columns[key][rows] = last[key][rows]
+        return infos.masked(columns, everyone) | infos.masked({key: last[key] for key in infos.END}, ended)
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """The command map of every environment, each (height, width, 3) uint8; None without `render_mode`."""
+        if self.render_mode is None:
+            return None
+        return tuple(self._task.render(index) for index in range(self.num_envs))
+
+
+def _checked_autoreset_mode(mode: object) -> AutoresetMode:
+    try:
+        return AutoresetMode(mode)
+    except ValueError:
+        values = ", ".join(repr(known.value) for known in AutoresetMode)
+        raise ValueError(
+            f"autoreset_mode: expected an AutoresetMode or one of {values}, got {mode!r}"
+        ) from None
+
+
+def _checked_mask(options: object, num_envs: int) -> NDArray[np.bool_] | None:
+    """`options["reset_mask"]`; it stays in `options`, for wrappers read it after us."""
+    if not isinstance(options, dict) or options.get("reset_mask") is None:
+        return None
+    mask = options["reset_mask"]
+    name = "options['reset_mask']"
+    if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
+        got = mask.dtype if isinstance(mask, np.ndarray) else type(mask).__name__
+        raise TypeError(f"{name}: expected a bool array of shape ({num_envs},), got {got}")
+    if mask.shape != (num_envs,):
+        raise ValueError(f"{name}: expected a bool array of shape ({num_envs},), got shape {mask.shape}")
+    if not mask.any():
+        raise ValueError(f"{name}: expected at least one True, got none")
+    return mask

@@ -1,0 +1,286 @@
+"""Adapter to stable-baselines3.
+
+from discjump.sb3 import make_vec_env
+model = PPO("MlpPolicy", make_vec_env("discjump/Ski-v0", n_envs=1024, seed=0))
+"""
+
+import time
+from collections.abc import Iterable, Sequence
+from typing import Any, NoReturn
+
+import gymnasium
+import numpy as np
+from gymnasium.error import ResetNeeded
+from numpy.typing import NDArray
+
+from discjump import _check
+from discjump.envs import infos
+from discjump.envs.options import SkiOptions
+from discjump.envs.ski import checked_render_mode
+from discjump.envs.task import ObservationField, SkiTask, seeds_of
+
+try:
+    from stable_baselines3.common.monitor import Monitor
+    from stable_baselines3.common.vec_env import VecEnv
+    from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices
+except ImportError as error:
+    raise ImportError(
+        "discjump.sb3 needs stable-baselines3, which is not installed: pip install 'discjump[sb3]'"
+    ) from error
+
+IDS = {"discjump/Ski-v0": SkiOptions}
+
+
+class SharedInfo(dict[str, Any]):
+    """The empty info of every environment whose episode goes on: one object for all, so it refuses to be
+    changed.
+
+    A copy of it is a plain dict.
+    """
+
+    __slots__ = ()
+
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
+        raise TypeError(
+            "this info is shared by all environments whose episode goes on: copy it before you change it"
+        )
+
+    __setitem__ = __delitem__ = __ior__ = _refuse
+    clear = pop = popitem = setdefault = update = _refuse
+
+    def __copy__(self) -> dict[str, Any]:
+        return {}
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> dict[str, Any]:
+        return {}
+
+    def __reduce__(self) -> tuple[type[dict[str, Any]], tuple[()]]:
+        return dict, ()
+
+
+SHARED_INFO = SharedInfo()
+
+
+class SkiVecEnv(VecEnv):
+    """Ski environments as a stable-baselines3 `VecEnv`.
+
+    Episodes restart in the step that ends them. Python's work in a step grows with the episodes that ended,
+    not with the environments: all others share one empty, read-only info. The info of an episode's end holds
+
+    - `terminal_observation`: (size,) float32, the last observation of the episode;
+    - `TimeLimit.truncated`: truncated and not terminated;
+    - `episode`: `r` sum of rewards, `l` decisions, `t` seconds since this object was made (so no `Monitor` is
+      needed, and `env_is_wrapped(Monitor)` says True);
+    - the columns of `discjump.envs.infos`, `is_success` among them.
+
+    What `reset` and `step` return never changes afterwards. Rewards are float32, as stable-baselines3 keeps
+    them.
+
+    Args:
+        num_envs: number of environments.
+        threads: threads that step the batch; None: one per core.
+        render_mode: None or `rgb_array`, the command maps.
+        options: of the task.
+    """
+
+    actions: NDArray[Any]
+
+    def __init__(
+        self,
+        num_envs: int,
+        options: SkiOptions,
+        *,
+        threads: int | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        self.render_mode = checked_render_mode(render_mode)
+        self.options = options
+        self._task = SkiTask(
+            options, num_envs, autoreset="same_step", threads=threads, render=render_mode is not None
+        )
+        self._attributes: list[dict[str, Any]] = [{} for _ in range(num_envs)]
+        self._quiet = [SHARED_INFO] * num_envs
+        self._started = time.time()
+        super().__init__(num_envs, self._task.observation_space, self._task.action_space)
+        self.metadata: dict[str, Any] = {**self.metadata, "render_fps": 1 / options.decision_seconds}
+
+    @property
+    def observation_layout(self) -> list[ObservationField]:
+        """Fields of one observation in their order."""
+        return self._task.observation_layout
+
+    def reset(self) -> NDArray[np.float32]:
+        """Start an episode everywhere, with the seeds and options given by `seed` and `set_options` since the
+        last call.
+
+        Returns:
+            Observations (num_envs, size) float32; `reset_infos` holds the infos.
+        """
+        observations = self._task.reset(
+            seeds_of(self._seeds, self.num_envs), options=_batched(self._options), batched=True
+        )
+        self._reset_seeds()
+        self._reset_options()
+        now = infos.now(self._task.batch.status())
+        self.reset_infos = [infos.row(now, index) for index in range(self.num_envs)]
+        return observations
+
+    def step_async(self, actions: NDArray[Any]) -> None:
+        """Take note of the actions (num_envs, 5); `step_wait` steps."""
+        self.actions = actions
+
+    def step_wait(
+        self,
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
+        """One decision of every environment.
+
+        Returns:
+            Observations (num_envs, size) float32, of the next episode where one ended; rewards (num_envs,)
+            float32; dones (num_envs,) bool; infos.
+        """
+        task = self._task
+        if not task.ready:
+            raise ResetNeeded("step: expected a call of reset() first")
+        observations, rewards, terminated, truncated = task.step(np.asarray(self.actions))
+        step_infos: list[dict[str, Any]] = self._quiet.copy()  # type: ignore[assignment]
+        rows = task.batch.finished()
+        if len(rows):
+            self._note_ends(step_infos, rows, truncated[rows] & ~terminated[rows])
+        # A copy of the rewards: the algorithm adds the value of a time-out's last state in place.
+        return observations, rewards.astype(np.float32), task.over.copy(), step_infos
+
+    def _note_ends(
+        self, step_infos: list[dict[str, Any]], rows: NDArray[np.int64], timed_out: NDArray[np.bool_]
+    ) -> None:
+        batch = self._task.batch
+        last, finals = infos.at_end(batch.outcomes()), batch.final_observations()
+        next_ones = {key: column[rows] for key, column in infos.now(batch.status()).items()}
+        elapsed = round(time.time() - self._started, 6)
+        for k, index in enumerate(rows.tolist()):
+            info = infos.row(last, k)
+            info["terminal_observation"] = finals[k]
+            info["TimeLimit.truncated"] = bool(timed_out[k])
+            info["episode"] = {"r": info["return"], "l": info["length"], "t": elapsed}
+            step_infos[index] = info
+            self.reset_infos[index] = infos.row(next_ones, k)
+
+    def snapshot(self) -> bytes:
+        """Every environment in the middle of its episode, for `restore`; valid for equal options only."""
+        return self._task.batch.snapshot()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Put every environment back to where it was at a `snapshot`, of this object or of one like it.
+
+        Raises:
+            ValueError: the snapshot is damaged or belongs to other options; nothing has changed then.
+        """
+        self._task.restore(snapshot)
+
+    def close(self) -> None:
+        """Nothing is held that would need it."""
+
+    def get_images(self) -> Sequence[NDArray[np.uint8] | None]:
+        """The command map of every environment, or None without `render_mode`."""
+        if self.render_mode is None:
+            return [None] * self.num_envs
+        return [self._task.render(index) for index in range(self.num_envs)]
+
+    def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:
+        """Attributes set by `set_attr`, else those of this object, which all environments share."""
+        return [
+            self._attributes[index][attr_name]
+            if attr_name in self._attributes[index]
+            else getattr(self, attr_name)
+            for index in self._indices(indices)
+        ]
+
+    def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
+        """Attach a value to environments; what this object defines itself cannot be replaced."""
+        if hasattr(self, attr_name):
+            raise AttributeError(f"{attr_name}: expected a new name, got one that all environments share")
+        for index in self._indices(indices):
+            self._attributes[index][attr_name] = value
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """Results of a method of each environment: `render`, or a callable attached by `set_attr`."""
+        results = []
+        for index in self._indices(indices):
+            if method_name == "render":
+                results.append(self._task.render(index) if self.render_mode is not None else None)
+            elif callable(method := self._attributes[index].get(method_name)):
+                results.append(method(*method_args, **method_kwargs))
+            else:
+                raise AttributeError(
+                    f"method_name: expected 'render' or a method set by set_attr, got {method_name!r}"
+                )
+        return results
+
+    def env_is_wrapped(
+        self, wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]], indices: VecEnvIndices = None
+    ) -> list[bool]:
+        """True for `Monitor`, whose `episode` statistics every episode's end has; no environment has another
+        wrapper.
+        """
+        return [wrapper_class is Monitor for _ in self._indices(indices)]
+
+    def _indices(self, indices: VecEnvIndices) -> Iterable[int]:
+        return self._get_indices(indices)
+
+
+def make_vec_env(
+    env_id: str,
+    n_envs: int = 1,
+    seed: int | None = None,
+    *,
+    threads: int | None = None,
+    render_mode: str | None = None,
+    **options: Any,
+) -> SkiVecEnv:
+    """A stable-baselines3 vector environment.
+
+    Args:
+        env_id: `discjump/Ski-v0`, also as `discjump:discjump/Ski-v0`.
+        n_envs: number of environments.
+        seed: environment i has seed + i; None: drawn from the operating system.
+        threads: threads that step the batch; None: one per core.
+        render_mode: None or `rgb_array`.
+        **options: fields of `discjump.envs.options.SkiOptions`.
+
+    Raises:
+        TypeError, ValueError: naming the argument, what was expected and what came.
+
+    >>> envs = make_vec_env("discjump/Ski-v0", n_envs=2, seed=0, terrain_seeds=[0])
+    >>> observations = envs.reset()
+    >>> observations, rewards, dones, infos = envs.step(np.tile([2, 1, 1, 0, 3], (2, 1)))
+    >>> rewards.dtype, infos
+    (dtype('float32'), [{}, {}])
+    """
+    name = _check.choice("env_id", str(env_id).removeprefix("discjump:"), tuple(IDS))
+    seeds = seeds_of(seed, _check.integer("n_envs", n_envs, 1, 2**24))
+    envs = SkiVecEnv(n_envs, IDS[name].from_keywords(options), threads=threads, render_mode=render_mode)
+    envs._seeds = list(seeds)
+    return envs
+
+
+def _batched(options: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
+    """Options of each environment as one row each; a start or goal that an environment leaves out is
+    drawn.
+    """
+    rows: dict[str, Any] = {}
+    for key in sorted({key for one in options for key in one}):
+        given = [one.get(key) for one in options]
+        present = [value for value in given if value is not None]
+        if not present:
+            continue
+        if key == "terrain_seed":
+            if len(present) < len(given):
+                raise ValueError(
+                    "options['terrain_seed']: expected one for every environment or for none, got some"
+                )
+            rows[key] = given
+        else:
+            drawn = np.full(np.shape(present[0]), np.nan)
+            rows[key] = [drawn if value is None else value for value in given]
+    return rows or None

@@ -1,0 +1,105 @@
+"""Every number of an observation, recomputed with numpy from the state and from queries of the terrain."""
+
+import numpy as np
+import pytest
+
+import discjump
+from discjump.envs.vector import SkiVectorEnv
+
+TOLERANCE = 2e-4  # float32 positions of hundreds of metres, and heights under them
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """A batch in mid-flight: observations by name in units, states, beacons, and the terrain."""
+    terrain = discjump.Terrain.raindance(3)
+    envs = SkiVectorEnv(
+        64, terrains=[terrain], fan_bearings=[0.0, 40.0, -90.0], fan_ranges=[5.0, 60.0], threads=1
+    )
+    envs.reset(seed=0)
+    for actions in np.random.default_rng(0).integers(0, [3, 3, 2, 2, 7], (40, 64, 5)):
+        observations, *_ = envs.step(actions)
+    names = {f.name: observations[:, f.slice] * f.scale for f in envs.observation_layout}
+    return names, envs.state(), envs.goals(), terrain
+
+
+def yaw_frame(state, x, y):
+    """(forward, right) parts of horizontal vectors: forward is (-sin yaw, cos yaw)."""
+    sin, cos = np.sin(state["yaw"].astype(float)), np.cos(state["yaw"].astype(float))
+    return np.stack([y * cos - x * sin, x * cos + y * sin], axis=1)
+
+
+def close(a, b):
+    np.testing.assert_allclose(a, b, atol=TOLERANCE, rtol=1e-4)
+
+
+def test_motion(seen):
+    names, state, _, _ = seen
+    v = state["velocity"].astype(float)
+    close(names["velocity"][:, :2], yaw_frame(state, v[:, 0], v[:, 1]))
+    close(names["velocity"][:, 2], v[:, 2])
+    close(names["speed"][:, 0], np.hypot(v[:, 0], v[:, 1]))
+
+
+def test_beacon(seen):
+    names, state, goals, _ = seen
+    way = goals - state["position"]
+    distance = np.hypot(way[:, 0], way[:, 1])
+    close(names["beacon_distance"][:, 0], distance)
+    close(names["beacon_nearness"][:, 0], 30.0 / (30.0 + distance))
+    close(names["beacon_height"][:, 0], way[:, 2])
+    unit = way[:, :2] / distance[:, None]
+    close(names["beacon_direction"], yaw_frame(state, unit[:, 0], unit[:, 1]))
+    v = state["velocity"].astype(float)
+    close(names["closing_speed"][:, 0], (v[:, :2] * unit).sum(axis=1))
+    # Positive to the right of the line to the beacon.
+    close(names["lateral_speed"][:, 0], v[:, 0] * unit[:, 1] - v[:, 1] * unit[:, 0])
+
+
+def test_ground(seen):
+    names, state, _, terrain = seen
+    position = state["position"]
+    normal = terrain.normal(position[:, :2])
+    height = position[:, 2] - terrain.height(position[:, :2])
+    close(names["height"][:, 0], np.maximum(height, 0.0))
+    close(names["height_bend"][:, 0], np.maximum(height, 0.0) / (np.maximum(height, 0.0) + 3.0))
+    # A player at rest on an edge may read the neighbouring triangle.
+    expected = yaw_frame(state, normal[:, 0], normal[:, 1])
+    assert (np.abs(names["ground_normal"] - expected).max(axis=1) < TOLERANCE).mean() > 0.95
+
+
+def test_body(seen):
+    names, state, _, _ = seen
+    close(names["energy"][:, 0], state["energy"])
+    close(names["damage"][:, 0], state["damage"])
+    assert (names["jetting"][:, 0] == state["jetting"]).all()
+    close(names["jump_grace"][:, 0], np.maximum(256 - state["jump_age"], 0))
+
+
+def test_fan(seen):
+    names, state, _, terrain = seen
+    position, yaw = state["position"], state["yaw"].astype(float)
+    below = terrain.height(position[:, :2])
+    column = 0
+    for bearing in (0.0, 40.0, -90.0):
+        angle = yaw + np.radians(bearing)
+        for distance in (5.0, 60.0):
+            there = position[:, :2] + distance * np.stack([-np.sin(angle), np.cos(angle)], axis=1)
+            close(names["fan"][:, column], (terrain.height(there) - below) / distance)
+            column += 1
+    assert column == names["fan"].shape[1]
+
+
+def test_landing(seen):
+    """The ballistic landing against a march along the parabola in steps of a millisecond."""
+    names, state, _, terrain = seen
+    position, velocity = state["position"], state["velocity"].astype(float)
+    time = np.arange(0.0, 3.0, 0.001)
+    agree = []
+    for k in range(len(state)):
+        path = position[k] + velocity[k] * time[:, None] + np.array([0.0, 0.0, -10.0]) * time[:, None] ** 2
+        under = np.flatnonzero(path[1:, 2] < terrain.height(path[1:, :2]))
+        first = time[under[0] + 1] if len(under) else 3.0
+        agree.append(abs(names["landing_time"][k, 0] - first) < 0.05)
+    # Looks 0.15 s apart may step over a crest, and a player on the ground lands at once.
+    assert np.mean(agree) > 0.85

@@ -1,0 +1,92 @@
+"""Returned arrays.
+
+Contract: nothing that a user stored ever changes. The simulator uses a buffer again only when nobody holds a
+view of it; were it to do so earlier, algorithms that store the last observation after the next step would
+learn from observations shifted by one, silently.
+"""
+
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode
+
+from discjump.envs.ski import SkiEnv
+from discjump.envs.vector import SkiVectorEnv
+
+from .play import SHORT, random_actions
+
+
+def leaves(value):
+    """Every array of numbers in nested dicts, lists and object arrays."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, np.ndarray) and value.dtype != object:
+        yield value
+    elif isinstance(value, (list, tuple, np.ndarray)):
+        for part in value:
+            yield from leaves(part)
+
+
+class Album:
+    """Arrays beside copies made when they came."""
+
+    def __init__(self):
+        self.pages = []
+
+    def add(self, value):
+        self.pages += [(array, array.copy()) for array in leaves(value)]
+
+    def check(self):
+        for array, copy in self.pages:
+            assert array.tobytes() == copy.tobytes()
+
+
+@pytest.mark.parametrize(
+    "mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP], ids=lambda mode: mode.value
+)
+@pytest.mark.parametrize("num_envs", [3, 300])
+def test_vector(mode, num_envs):
+    envs, album = SkiVectorEnv(num_envs, autoreset_mode=mode, **SHORT), Album()
+    album.add(envs.reset(seed=0))
+    for action in random_actions(0, 50, num_envs):
+        album.add(envs.step(action))
+    album.add(envs.reset())
+    envs.step(action)
+    album.check()
+
+
+def test_vector_keeping_only_a_slice():
+    envs = SkiVectorEnv(64, **SHORT)
+    row = envs.reset(seed=0)[0][5:6, 2:7]
+    before = row.copy()
+    for action in random_actions(0, 20, 64):
+        envs.step(action)
+    assert row.tobytes() == before.tobytes()
+
+
+def test_single():
+    env, album = SkiEnv(terrain_seeds=[0]), Album()
+    album.add(env.reset(seed=0))
+    for action in random_actions(0, 50, 1)[:, 0]:
+        album.add(env.step(action))
+    album.check()
+
+
+def test_stable_baselines3():
+    sb3 = pytest.importorskip("discjump.sb3")
+    envs, album = sb3.make_vec_env("discjump/Ski-v0", n_envs=40, seed=0, **SHORT), Album()
+    album.add(envs.reset())
+    for action in random_actions(0, 50, 40):
+        album.add(envs.step(action))
+    album.check()
+
+
+def test_what_a_user_writes_into_them_changes_nothing():
+    calm, rude = SkiVectorEnv(4, **SHORT), SkiVectorEnv(4, **SHORT)
+    calm.reset(seed=0)
+    rude.reset(seed=0)[0][:] = 7.0
+    for action in random_actions(0, 60, 4):
+        one, other = calm.step(action), rude.step(action)
+        for left, right in zip(leaves(one), leaves(other), strict=True):
+            assert left.tobytes() == right.tobytes()
+        for array in leaves(other):
+            array[...] = 1

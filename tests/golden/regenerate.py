@@ -1,0 +1,64 @@
+"""The golden digests: python tests/golden/regenerate.py rewrites them.
+
+A digest names every bit of a rollout: observations, rewards, flags and the final state. One that changes
+means that old scores no longer hold: the id needs a new version (`CHANGELOG.md`), or the change is a defect.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import discjump
+from discjump.envs.vector import SkiVectorEnv
+
+FILE = Path(__file__).with_name("digests.json")
+TERRAIN_SEEDS = (0, 1, 7, 10_000, 2**64 - 1)
+TIERS = ("authentic", "reference")
+NUM_ENVS, DECISIONS = 48, 500
+
+
+def actions(decision: int) -> NDArray[np.int64]:
+    """(NUM_ENVS, 5) actions by plain arithmetic: no generator whose stream may change.
+
+    Forward and jump are held half of the time, so that some players ski far and others walk.
+    """
+    index = np.arange(NUM_ENVS * 5, dtype=np.uint64).reshape(NUM_ENVS, 5)
+    mixed = (index * np.uint64(2_654_435_761) + np.uint64(decision // 5) * np.uint64(40_503)) % np.uint64(
+        65_521
+    )
+    drawn = (mixed % np.array([3, 3, 2, 2, 7], np.uint64)).astype(np.int64)
+    held = np.where(np.arange(NUM_ENVS)[:, None] % 2 == 0, [2, 1, 1, 0, 3], drawn)
+    held[:, 3:] = drawn[:, 3:]
+    return held
+
+
+def rollout(fidelity: str) -> str:
+    """Digest of a rollout of `discjump/Ski-v0` on a tier; episodes end by arrival and by the clock."""
+    envs = SkiVectorEnv(NUM_ENVS, fidelity=fidelity, threads=1, terrain_seeds=[0, 1, 2, 3], time_limit=20.0)
+    digest = hashlib.sha256()
+    observations, _ = envs.reset(seed=0)
+    digest.update(observations.tobytes())
+    for decision in range(DECISIONS):
+        for array in envs.step(actions(decision))[:4]:
+            digest.update(array.tobytes())
+    digest.update(envs.state().tobytes())
+    return digest.hexdigest()
+
+
+def digests() -> dict[str, dict[str, str]]:
+    """All golden digests, computed now."""
+    return {
+        "discjump/Ski-v0": {fidelity: rollout(fidelity) for fidelity in TIERS},
+        "terrain": {str(seed): discjump.Terrain.raindance(seed).digest() for seed in TERRAIN_SEEDS},
+        "repeating terrain": {
+            str(seed): discjump.Terrain.raindance(seed, repeating=True).digest() for seed in TERRAIN_SEEDS[:2]
+        },
+    }
+
+
+if __name__ == "__main__":
+    FILE.write_text(json.dumps(digests(), indent=1) + "\n")
+    print(FILE)

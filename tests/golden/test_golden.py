@@ -1,0 +1,27 @@
+"""Scores of an environment id stay comparable for ever: its bits are those committed here.
+
+Whoever changes a digest changes what every published score of that id meant. `regenerate.py` rewrites the
+file; `CHANGELOG.md` says when that is allowed.
+"""
+
+import json
+
+import pytest
+
+import discjump
+
+from .regenerate import FILE, TERRAIN_SEEDS, TIERS, rollout
+
+GOLDEN = json.loads(FILE.read_text())
+
+
+@pytest.mark.parametrize("fidelity", TIERS)
+def test_rollouts_have_their_golden_bits(fidelity: str) -> None:
+    assert rollout(fidelity) == GOLDEN["discjump/Ski-v0"][fidelity], (
+        "the bits of discjump/Ski-v0 changed: this needs a new id (see the version policy in CHANGELOG.md)"
+    )
+
+
+@pytest.mark.parametrize("seed", TERRAIN_SEEDS)
+def test_terrains_have_their_golden_bits(seed: int) -> None:
+    assert discjump.Terrain.raindance(seed).digest() == GOLDEN["terrain"][str(seed)]

@@ -1,0 +1,151 @@
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+from pydantic import BaseModel, ConfigDict
+
+from discjump_training import baselines, cli, evaluate, train
+from discjump_training.courses import HELD_OUT
+from discjump_training.episodes import FAILURE_SECONDS, Stage
+
+EPISODES = 12
+
+
+class Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class EstimateJson(Strict):
+    value: float
+    low: float
+    high: float
+
+
+class PolicyJson(Strict):
+    name: str
+    actions: str
+    success: EstimateJson
+    seconds: EstimateJson
+    mean_speed: EstimateJson
+    top_speed: EstimateJson
+    damage: EstimateJson
+    deaths: int
+    episode_seconds: list[float]
+
+
+class ComparisonJson(Strict):
+    policy: str
+    against: str
+    seconds_difference: EstimateJson
+    seconds_ratio: EstimateJson
+    faster_share: float
+    faster_terrains: int
+    terrains: int
+
+
+class EvaluationJson(Strict):
+    """The published form of evaluation.json: what it lacks or has too much fails here."""
+
+    schema_version: int
+    course: str
+    terrain_seeds: list[int]
+    first_environment_seed: int
+    episodes: int
+    fidelity: str
+    failure_seconds: float
+    interval: str
+    policies: list[PolicyJson]
+    comparisons: list[ComparisonJson]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    from discjump_training.recipe import Recipe
+
+    from .conftest import TINY
+
+    folder = tmp_path_factory.mktemp("runs") / "ski"
+    train.train(Recipe.load("ski", TINY), 0, folder, quiet=True)
+    return folder
+
+
+def invoke(*arguments: object):
+    return CliRunner().invoke(cli.evaluate, [str(argument) for argument in arguments])
+
+
+def test_a_run_is_judged_against_all_baselines(run):
+    result = invoke(run, "--episodes", EPISODES, "--threads", 1)
+    assert result.exit_code == 0, result.output
+    data = EvaluationJson.model_validate_json((run / "evaluation" / "evaluation.json").read_text())
+    assert [one.name for one in data.policies] == [str(run), "random", "skier", "tacker"]
+    assert [one.actions for one in data.policies] == ["greedy", "uniform", "scripted", "scripted"]
+    assert [(one.policy, one.against) for one in data.comparisons] == [
+        (str(run), name) for name in baselines.NAMES
+    ]
+    for one in data.policies:
+        assert len(one.episode_seconds) == data.episodes == EPISODES
+        assert one.seconds.value == pytest.approx(np.mean(one.episode_seconds), abs=1e-3)
+        for figure in (one.success, one.seconds, one.mean_speed, one.top_speed, one.damage):
+            assert figure.low <= figure.value <= figure.high
+    times = {one.name: np.array(one.episode_seconds) for one in data.policies}
+    for pair in data.comparisons:
+        a, b = times[pair.policy], times[pair.against]
+        assert pair.seconds_difference.value == pytest.approx((a - b).mean(), abs=2e-3)
+        assert pair.seconds_ratio.value == pytest.approx(a.mean() / b.mean(), abs=1e-3)
+        assert pair.faster_share == pytest.approx((a < b).mean())
+
+    table = (run / "evaluation" / "evaluation.md").read_text()
+    assert "| skier | scripted |" in table
+    assert "Time-outs and deaths count as 60 s. Fewer than 200 episodes" in table
+    with Image.open(run / "evaluation" / "evaluation.png") as picture:
+        assert picture.width > 800
+        assert len(set(picture.convert("RGB").resize((64, 64)).get_flattened_data())) > 100
+    assert str(run / "evaluation" / "evaluation.png") in result.output
+
+
+def test_baselines_alone_are_compared_with_each_other(tmp_path):
+    result = invoke("skier", "tacker", "--no-baselines", "--episodes", 4, "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    data = json.loads((tmp_path / "evaluation.json").read_text())
+    assert [(one["policy"], one["against"]) for one in data["comparisons"]] == [("skier", "tacker")]
+
+
+def test_failures_count_as_60_seconds():
+    played = Stage(HELD_OUT, 8, baselines.OPTIONS).play(baselines.Random(), record=(0, 3))
+    assert not played.success.all()
+    assert (played.seconds[~played.success] == FAILURE_SECONDS).all()
+    assert (played.seconds[played.success] <= FAILURE_SECONDS).all()
+    assert sorted(played.paths) == [0, 3]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message", "code"),
+    [
+        (["nobody"], "neither a baseline (random, skier, tacker) nor a model file", 1),
+        (["skier", "--episodes", "513"], "has 1 to 512 episodes to offer, not 513", 1),
+        (["skier", "--course", "mars"], "'mars' is not one of", 2),
+        ([], "Missing argument", 2),
+    ],
+)
+def test_mistakes_are_explained(arguments, message, code, tmp_path):
+    result = invoke(*arguments, "--no-baselines", "--out", tmp_path)
+    assert result.exit_code == code
+    assert message in result.output
+    assert "Traceback" not in result.output
+
+
+def test_a_folder_without_a_model_and_a_damaged_one(tmp_path):
+    result = invoke(tmp_path, "--no-baselines", "--episodes", 2)
+    assert result.exit_code == 1
+    assert "neither a baseline" in result.output
+    (tmp_path / "best.zip").write_bytes(b"nonsense")
+    result = invoke(tmp_path, "--no-baselines", "--episodes", 2)
+    assert result.exit_code == 1
+    assert "best.zip is not a readable model file" in result.output
+
+
+def test_models_come_first_and_nobody_twice():
+    assert evaluate.entrants(("runs/a", "skier", "skier"), True) == ["runs/a", "skier", "random", "tacker"]
+    assert evaluate.entrants(("tacker",), False) == ["tacker"]

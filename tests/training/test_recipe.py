@@ -1,0 +1,69 @@
+import tomllib
+
+import pytest
+
+from discjump_training import recipe
+from discjump_training.errors import RecipeError
+from discjump_training.recipe import Recipe, Section
+
+
+def sections(kind: type[Section]):
+    yield kind
+    for field in kind.model_fields.values():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, Section):
+            yield from sections(field.annotation)
+
+
+def test_every_field_is_explained():
+    for section in sections(Recipe):
+        for name, field in section.model_fields.items():
+            assert field.description, f"{section.__name__}.{name}"
+
+
+@pytest.mark.parametrize("name", recipe.names())
+def test_shipped_recipes_load_and_survive_toml(name):
+    loaded = Recipe.load(name)
+    assert Recipe.parse(tomllib.loads(loaded.to_toml()), "again") == loaded
+    assert Recipe.parse(tomllib.loads(loaded.to_toml(help=True)), "again") == loaded
+
+
+def test_the_ablation_differs_in_the_fan_alone():
+    full, without = Recipe.load("ski").model_dump(), Recipe.load("ski_no_fan").model_dump()
+    assert (without["environment"].pop("fan_bearings"), without["environment"].pop("fan_ranges")) == ([], [])
+    del full["environment"]["fan_bearings"], full["environment"]["fan_ranges"]
+    assert without == full
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("ppo.gama=0.9", r"ppo\.gama: unknown field; known are .*gamma"),
+        ("sky.blue=1", r"sky: unknown field; known are environment"),
+        ("ppo.gamma='high'", r"ppo\.gamma: .*number, got 'high'"),
+        ("ppo.gamma=1.5", r"ppo\.gamma: .*less than or equal to 1, got 1\.5"),
+        ("ppo.n_epochs=2.5", r"ppo\.n_epochs: .*integer, got 2\.5"),
+        ("ppo.n_epochs=true", r"ppo\.n_epochs: .*integer, got True"),
+        ("rollout.num_envs=0", r"rollout\.num_envs: .*greater than 0, got 0"),
+        ("ppo.batch_size=1000", r"ppo\.batch_size: must divide .*65536, got 1000"),
+        ("environment.fan_ranges=[]", r"fan_bearings and fan_ranges: either both are empty"),
+        ("environment.course='ski-v9'", r"no course is named 'ski-v9'; there are ski-train-v1"),
+        ("watch.evaluate_episodes=100_000", r"evaluate_episodes: ski-validation-v1 has 512"),
+        ("ppo.gamma", r"expected section\.field=value, got 'ppo\.gamma'"),
+        ("ppo.activation=tanh", r"the value must be written as in TOML"),
+    ],
+)
+def test_what_does_not_fit_is_refused_by_name(override, message):
+    with pytest.raises(RecipeError, match=message):
+        Recipe.load("ski", (override,))
+
+
+def test_unreadable_files_are_refused(tmp_path):
+    with pytest.raises(RecipeError, match=r"cannot read the recipe .*recipes by name: ski"):
+        Recipe.load(tmp_path / "none.toml")
+    broken = tmp_path / "broken.toml"
+    broken.write_text("[ppo\n")
+    with pytest.raises(RecipeError, match=r"broken\.toml is not TOML"):
+        Recipe.load(broken)
+    broken.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(RecipeError, match=r"cannot read"):
+        Recipe.load(broken)

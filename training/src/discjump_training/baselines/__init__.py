@@ -1,0 +1,77 @@
+"""Baselines: what a trained agent has to be better than.
+
+sight       named readings of an observation
+steering    from a direction to keys and a turn
+script      the scripted skier, and the same tacking
+tuned.toml  their constants, found by `python -m discjump_training.tune` on the training course
+"""
+
+import tomllib
+from dataclasses import asdict
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from discjump_training.baselines.script import Script, SkierParameters, TackerParameters
+from discjump_training.episodes import Stage
+from discjump_training.errors import TrainingError
+from discjump_training.policy import BINS, Actions, Mask, Observations, Policy
+
+#: Baselines by name, with the parameters they are tuned in.
+PARAMETERS: dict[str, type[SkierParameters]] = {"skier": SkierParameters, "tacker": TackerParameters}
+NAMES = ("random", *PARAMETERS)
+
+#: Ranges of the terrain heights that the scripts look at, straight ahead, metres.
+RANGES = (6.0, 16.0, 35.0, 70.0, 120.0)
+#: Options of `discjump/Ski-v0` that make the observations the scripts need and no more.
+OPTIONS: dict[str, Any] = {"fan_bearings": [0.0], "fan_ranges": list(RANGES), "landing": False}
+
+
+class Random:
+    """Presses keys at random, anew at each decision."""
+
+    name = "random"
+    note = "uniform"
+
+    def __init__(self, seed: int = 0) -> None:
+        self._seed = seed
+        self._draw = np.random.default_rng(seed)
+
+    def __call__(self, observations: Observations) -> Actions:
+        """Actions for a batch of observations."""
+        return self._draw.integers(0, BINS, size=(len(observations), len(BINS)), dtype=np.int64)
+
+    def reset(self, done: Mask) -> None:
+        """When all episodes begin anew, so do the draws."""
+        if done.all():
+            self._draw = np.random.default_rng(self._seed)
+
+
+def make(name: str, stage: Stage, parameters: SkierParameters | None = None) -> Policy:
+    """A baseline for the environments of `stage`, which must have been made with `OPTIONS`.
+
+    Args:
+        name: one of `NAMES`.
+        stage: where it will play.
+        parameters: in place of the tuned ones.
+
+    Raises:
+        TrainingError: if no baseline has that name.
+    """
+    if name not in NAMES:
+        raise TrainingError(f"no baseline is named {name!r}; there are {', '.join(NAMES)}")
+    if name == "random":
+        return Random()
+    return Script(name, parameters or tuned(name), stage.layout, np.array(RANGES), stage.turn_rate)
+
+
+def tuned(name: str) -> SkierParameters:
+    """The committed constants of a script."""
+    text = resources.files(__name__).joinpath("tuned.toml").read_text(encoding="utf-8")
+    return PARAMETERS[name](**tomllib.loads(text)[name]["parameters"])
+
+
+def to_toml(parameters: SkierParameters) -> str:
+    """Parameters as lines of TOML."""
+    return "".join(f"{key} = {value:.4g}\n" for key, value in asdict(parameters).items())

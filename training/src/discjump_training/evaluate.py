@@ -1,0 +1,190 @@
+"""Judges policies on the fixed episodes of a course: who reaches the beacon, how fast, and by how much one
+is faster.
+
+All policies meet the same episodes, so they are compared pair by pair. An episode that ends by time-out or
+death counts as 60 s. Intervals are 95% bootstrap intervals over episodes (the success rate's is exact).
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from discjump_training import baselines, intervals, model
+from discjump_training.courses import COURSES, Course
+from discjump_training.episodes import FAILURE_SECONDS, Episodes, Stage
+from discjump_training.errors import ModelError
+from discjump_training.intervals import Estimate
+from discjump_training.policy import Policy
+from discjump_training.recipe import Watch
+
+#: Figures of one policy: key, heading, unit, digits.
+FIGURES = (
+    ("success", "success", "%", 1),
+    ("seconds", "time to beacon", "s", 2),
+    ("mean_speed", "mean speed", "m/s", 1),
+    ("top_speed", "top speed", "m/s", 1),
+    ("damage", "damage", "", 3),
+)
+FIDELITY = "authentic"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A policy and what it did."""
+
+    name: str
+    note: str
+    is_model: bool
+    episodes: Episodes
+    figures: dict[str, Estimate]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How much time `policy` needs against `against`, on the same episodes.
+
+    Attributes:
+        policy, against: their names.
+        difference: mean seconds of policy - against; negative is faster.
+        ratio: mean seconds of policy / against; below 1 is faster.
+        faster_share: share of the episodes in which the policy is faster.
+        faster_terrains: number of terrains on which its mean time is lower.
+        terrains: number of terrains.
+    """
+
+    policy: str
+    against: str
+    difference: Estimate
+    ratio: Estimate
+    faster_share: float
+    faster_terrains: int
+    terrains: int
+
+
+def entrants(names: tuple[str, ...], with_baselines: bool) -> list[str]:
+    """What to judge, models before baselines; baselines that were not named are added if wanted."""
+    added = [name for name in baselines.NAMES if with_baselines and name not in names]
+    return [*dict.fromkeys(names), *added]
+
+
+def model_path(name: str) -> Path:
+    """The model that `name` means: a model file, or the folder of a run, whose best model is taken."""
+    path = Path(name)
+    return path / model.BEST if path.is_dir() else path
+
+
+def judge(
+    name: str, course: Course, episodes: int, *, sampled: bool, threads: int | None, record: int
+) -> Judged:
+    """Play a course with one policy.
+
+    Args:
+        name: of a baseline, a model file or the folder of a run.
+        course: which episodes.
+        episodes: how many of them.
+        sampled: models draw their actions instead of taking the likeliest.
+        threads: of the simulator.
+        record: number of episodes whose paths are kept.
+
+    Raises:
+        TrainingError: if the policy cannot be had or does not fit the environment.
+    """
+    is_model = name not in baselines.NAMES
+    policy: Policy
+    if is_model:
+        path = model_path(name)
+        if not path.exists():
+            known = ", ".join(baselines.NAMES)
+            raise ModelError(
+                f"{name} is neither a baseline ({known}) nor a model file nor the folder of a run"
+            )
+        ppo = model.load(path)
+        options = model.about(path).get("environment", {}) | {"fidelity": FIDELITY}
+        stage = Stage(course, episodes, options, threads)
+        model.check_spaces(ppo, path, stage.env)
+        policy = model.Sampled(ppo, name) if sampled else model.Greedy(ppo, name)
+    else:
+        stage = Stage(course, episodes, baselines.OPTIONS | {"fidelity": FIDELITY}, threads)
+        policy = baselines.make(name, stage)
+    played = stage.play(policy, record=tuple(range(min(record, episodes))))
+    stage.close()
+    figures = {
+        key: intervals.proportion(played.success)
+        if key == "success"
+        else intervals.mean(getattr(played, key))
+        for key, *_ in FIGURES
+    }
+    return Judged(policy.name, policy.note, is_model, played, figures)
+
+
+def level(name: str, threads: int | None) -> float:
+    """Mean time of a baseline on the episodes that learning curves are measured on, s."""
+    watch = Watch()
+    stage = Stage(COURSES[watch.evaluate_course], watch.evaluate_episodes, baselines.OPTIONS, threads)
+    return float(stage.play(baselines.make(name, stage)).seconds.mean())
+
+
+def compare(judged: list[Judged]) -> list[Comparison]:
+    """Every model against every baseline; without models, every baseline against the ones after it."""
+    models = [one for one in judged if one.is_model]
+    if models:
+        pairs = [(a, b) for a in models for b in judged if not b.is_model]
+        pairs += [(a, b) for i, a in enumerate(models) for b in models[i + 1 :]]
+    else:
+        pairs = [(a, b) for i, a in enumerate(judged) for b in judged[i + 1 :]]
+    return [_comparison(a, b) for a, b in pairs]
+
+
+def _comparison(a: Judged, b: Judged) -> Comparison:
+    x, y, terrain = a.episodes.seconds, b.episodes.seconds, a.episodes.terrain
+    used = sorted(set(terrain.tolist()))
+    return Comparison(
+        policy=a.name,
+        against=b.name,
+        difference=intervals.mean_difference(x, y),
+        ratio=intervals.mean_ratio(x, y),
+        faster_share=float((x < y).mean()),
+        faster_terrains=sum(bool((x - y)[terrain == index].mean() < 0) for index in used),
+        terrains=len(used),
+    )
+
+
+def as_json(
+    course: Course, episodes: int, judged: list[Judged], compared: list[Comparison]
+) -> dict[str, Any]:
+    """All figures, and the times of every episode, for `evaluation.json`."""
+    return {
+        "schema_version": 1,
+        "course": course.name,
+        "terrain_seeds": list(course.terrain_seeds),
+        "first_environment_seed": course.base_seed,
+        "episodes": episodes,
+        "fidelity": FIDELITY,
+        "failure_seconds": FAILURE_SECONDS,
+        "interval": (
+            f"{intervals.CONFIDENCE:.0%}: BCa bootstrap over episodes, {intervals.RESAMPLES} resamples; "
+            "success: exact (Clopper-Pearson)"
+        ),
+        "policies": [
+            {
+                "name": one.name,
+                "actions": one.note,
+                **{key: one.figures[key].as_dict() for key, *_ in FIGURES},
+                "deaths": int(one.episodes.death.sum()),
+                "episode_seconds": [round(value, 3) for value in one.episodes.seconds.tolist()],
+            }
+            for one in judged
+        ],
+        "comparisons": [
+            {
+                "policy": one.policy,
+                "against": one.against,
+                "seconds_difference": one.difference.as_dict(),
+                "seconds_ratio": one.ratio.as_dict(),
+                "faster_share": one.faster_share,
+                "faster_terrains": one.faster_terrains,
+                "terrains": one.terrains,
+            }
+            for one in compared
+        ],
+    }

@@ -1,0 +1,132 @@
+"""The folder of a training run: what is in it and how it gets there.
+
+recipe.toml     what was asked for
+run.json        seed, versions, machine, how far it came and where the time went
+curve.csv       the learning curve, a row per evaluation
+best.zip        the model that was fastest on the validation course
+final.zip       the model at the end
+checkpoints/    everything needed to go on: model, optimiser, episodes under way, random generators
+tensorboard/    for `tensorboard --logdir`
+"""
+
+import csv
+import io
+import json
+import os
+import platform
+from dataclasses import asdict, dataclass, field, fields
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from discjump_training import model
+from discjump_training.errors import TrainingError
+from discjump_training.recipe import Recipe
+
+
+@dataclass
+class Point:
+    """A row of the learning curve."""
+
+    steps: int
+    training_seconds: float
+    validation_success: float
+    validation_seconds: float
+    training_success: float
+    training_return: float
+    learning_rate: float
+
+
+@dataclass
+class Clock:
+    """Seconds spent since the run began, by what on."""
+
+    environment: float = 0.0
+    policy: float = 0.0
+    update: float = 0.0
+    evaluation: float = 0.0
+
+    @property
+    def training(self) -> float:
+        """All but evaluation."""
+        return self.environment + self.policy + self.update
+
+    def share(self, part: str) -> float:
+        """Share of the training time that went into `environment`, `policy` or `update`."""
+        return float(getattr(self, part)) / self.training
+
+
+@dataclass
+class Progress:
+    """What a run remembers beyond the model: it goes into every checkpoint."""
+
+    seed: int
+    curve: list[Point] = field(default_factory=list)
+    clock: Clock = field(default_factory=Clock)
+    best_seconds: float = float("inf")
+    evaluated_at: int = 0
+    checkpointed_at: int = 0
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> "Progress":
+        """The inverse of `dataclasses.asdict`."""
+        return cls(
+            **{**data, "curve": [Point(**row) for row in data["curve"]], "clock": Clock(**data["clock"])}
+        )
+
+
+def check_is_free(folder: Path) -> None:
+    """Refuse a folder that is not empty.
+
+    Raises:
+        TrainingError: if it holds something already.
+    """
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        hint = f"go on with --resume {folder}, or " if checkpoints(folder) else ""
+        raise TrainingError(f"{folder} exists and is not an empty folder: {hint}choose another --out")
+
+
+def checkpoints(folder: Path) -> list[Path]:
+    """Checkpoints of a run, oldest first."""
+    return sorted((folder / "checkpoints").glob("[0-9]*.zip"))
+
+
+def newest_checkpoint(folder: Path) -> Path:
+    """The checkpoint to go on from.
+
+    Raises:
+        TrainingError: if there is none.
+    """
+    found = checkpoints(folder)
+    if not found:
+        raise TrainingError(f"nothing to resume: there is no checkpoint in {folder / 'checkpoints'}")
+    return found[-1]
+
+
+def write_curve(path: Path, curve: list[Point]) -> None:
+    """The learning curve as CSV."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, [f.name for f in fields(Point)])
+    writer.writeheader()
+    writer.writerows(asdict(point) for point in curve)
+    model.write_atomically(path, text.getvalue().encode())
+
+
+def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> None:
+    """What was run, on what, how far, and where the time went."""
+    clock = progress.clock
+    run = {
+        "seed": progress.seed,
+        "steps": steps,
+        "finished": steps >= recipe.ppo.steps,
+        "steps_per_second": steps / clock.training,
+        "seconds": asdict(clock),
+        "environment_share": clock.share("environment"),
+        "best_validation_seconds": progress.best_seconds,
+        "versions": {
+            name: metadata.version(name) for name in ("discjump", "stable-baselines3", "torch", "numpy")
+        },
+        "python": platform.python_version(),
+        "machine": f"{platform.machine()}, {os.cpu_count()} cores",
+    }
+    model.write_atomically(folder / "run.json", (json.dumps(run, indent=2) + "\n").encode())
