@@ -246,8 +246,9 @@ fn environments() {
     refused(build(|s| s.task.reward.progress = NAN), "reward", "NaN");
     refused(build(|s| s.task.reward.arrival = -INF), "reward", "-inf");
     refused(build(|s| s.areas.truncate(1)), "areas", "1");
-    refused(build(|s| s.areas[1].min[0] = NAN), "areas", "NaN");
-    refused(build(|s| s.areas[0] = Area { min: [9.0, 0.0], max: [0.0, 900.0] }), "areas", "9");
+    refused(build(|s| s.areas[1].min[0] = NAN), "areas[1]", "NaN");
+    refused(build(|s| s.areas[0] = Area { min: [9.0, 0.0], max: [0.0, 900.0] }), "areas[0]", "[9.0, 0.0]");
+    refused(build(|s| s.areas[1].max[1] = 1e9), "areas[1]", "1000000000.0");
     refused(SkiObservation::new(&[181.0], &[5.0], true), "fan_bearings", "181");
     refused(SkiObservation::new(&[NAN], &[5.0], true), "fan_bearings", "NaN");
     refused(SkiObservation::new(&[0.0], &[-1.0], true), "fan_ranges", "-1");
@@ -375,9 +376,14 @@ fn resets() {
 fn a_start_beyond_a_void_map() {
     let mut setup = ski(1, "authentic");
     let map = Heightfield::new(vec![5.0; 65 * 65], 65, 65, 8.0, [0.0; 2], Edge::Void).unwrap();
-    setup.maps = Maps::new(&[map]).unwrap();
+    setup.maps = Maps::new(&[map]).unwrap().into();
     setup.areas.truncate(1);
     setup.autoreset = Autoreset::Disabled;
+    // Episodes begin on the map, in the middle of a step too, or the area is refused.
+    let mut beyond = ski(1, "authentic");
+    (beyond.maps, beyond.areas) = (setup.maps.clone(), vec![Area { min: [-1.0, 0.0], max: [512.0; 2] }]);
+    refused(beyond.build(), "areas[0]", "[-1.0, 0.0]");
+    setup.areas[0] = Area { min: [0.0; 2], max: [512.0; 2] };
     let mut envs = Envs::seeded(setup, &[4]);
     let course = CourseRequest { start: Some(DVec2::new(-1.0, 5.0)), ..CourseRequest::default() };
     let request = ResetRequest { courses: vec![course], ..ResetRequest::default() };
