@@ -8,12 +8,12 @@ mod terrains;
 
 use discjump_core::error::InputError;
 
-pub const NAN: f64 = f64::NAN;
-pub const INF: f64 = f64::INFINITY;
+const NAN: f64 = f64::NAN;
+const INF: f64 = f64::INFINITY;
 
 /// The message must begin with the argument and hold what came.
 #[track_caller]
-pub fn refused<T>(result: Result<T, InputError>, argument: &str, got: &str) {
+fn refused<T>(result: Result<T, InputError>, argument: &str, got: &str) {
     let Err(error) = result else { panic!("{argument}: {got} was accepted") };
     let message = error.to_string();
     assert!(message.starts_with(argument), "{message:?} does not begin with {argument:?}");
