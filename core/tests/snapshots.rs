@@ -166,7 +166,7 @@ fn an_environments_snapshot_of_another_layout_or_count_is_refused() {
         ("time limit", |s| s.task.time_limit = 251),
         ("reward", |s| s.task.reward.time = 0.0),
         ("autoreset", |s| s.autoreset = Autoreset::Disabled),
-        ("terrain", |s| s.maps = Maps::new(&[rolling(), rolling()]).unwrap()),
+        ("terrain", |s| s.maps = Maps::new(&[rolling(), rolling()]).unwrap().into()),
         // The next episodes are drawn within it.
         ("area", |s| s.areas[1].max[0] += 1.0),
     ];

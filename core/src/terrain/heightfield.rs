@@ -101,12 +101,12 @@ impl Heightfield {
             let col = (0..rows).find(|&j| heights[j * cols] != heights[j * cols + cols - 1]);
             if let Some(i) = row {
                 refuse!(
-                    "heights: on edge \"tile\" the last row repeats the first, but they differ at column {i}"
+                    "heights: on edge \"tile\" expected the last row to repeat the first, got another height at column {i}"
                 );
             }
             if let Some(j) = col {
                 refuse!(
-                    "heights: on edge \"tile\" the last column repeats the first, but they differ at row {j}"
+                    "heights: on edge \"tile\" expected the last column to repeat the first, got another height at row {j}"
                 );
             }
         }

@@ -15,7 +15,7 @@ pub fn ski(count: usize, fidelity: &str) -> SkiEnvironments {
     let (rows, cols) = (first.rows(), first.cols());
     let second = Heightfield::new(heights, rows, cols, 8.0, first.origin(), first.edge()).unwrap();
     SkiEnvironments {
-        maps: Maps::new(&[first, second]).unwrap(),
+        maps: Maps::new(&[first, second]).unwrap().into(),
         areas: vec![Area { min: [50.0, 50.0], max: [450.0, 450.0] }; 2],
         count,
         fidelity: fidelity.into(),

@@ -2,7 +2,9 @@
 #![allow(dead_code, missing_docs)]
 
 pub mod crowd;
+pub mod draws;
 pub mod envs;
+pub mod lab;
 
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;

@@ -47,19 +47,27 @@ pub(super) fn begin<S: Scene, T: Scalar>(
     number: u64,
     request: &CourseRequest,
 ) -> Result<Begun<S, T>, InputError> {
+    let maps = &setup.maps;
+    let named = |name: &str, e: InputError| InputError(format!("{name}: {e}"));
+    // Before anything is drawn from them, so that the one at fault is named.
+    for (name, place) in [("start", request.start), ("goal", request.goal)] {
+        if let Some(place) = place {
+            maps.to_local(place.extend(0.0)).map_err(|e| named(name, e))?;
+        }
+    }
     let task = &setup.task;
     let course = draw_course(seed, number, &setup.areas, task.goal_distance, task.start_speed, request)?;
-    let maps = &setup.maps;
     let surface = maps.surface::<T>();
     let map = maps.offset(course.map);
     let t = T::from_f64;
 
-    let named = |name: &str, e: InputError| InputError(format!("{name}: {e}"));
     let (start, tile) =
         maps.to_local(course.start.extend(course.height.unwrap_or(0.0))).map_err(|e| named("start", e))?;
     let ground = surface.ground::<T>(map, t(start.x), t(start.y));
-    if !ground.exists && course.height.is_none() {
-        refuse!("start: there is no ground at ({}, {})", course.start.x, course.start.y);
+    // A start that is drawn lies on the map, and at most rounding puts it on the rim.
+    let asked = request.start.is_some() || request.goal.is_some();
+    if asked && !ground.exists && course.height.is_none() {
+        refuse!("start: expected a place with ground below it, got ({}, {})", course.start.x, course.start.y);
     }
     let z = if course.height.is_some() { t(start.z) } else { ground.height };
     let mut player = Player::<S, T>::new(rules, V3::new(t(start.x), t(start.y), z), map);

@@ -8,8 +8,8 @@ use crate::observe::SkiObservation;
 use crate::rules::Physics;
 use crate::scene::Ski;
 use crate::task::{ActionKind, SkiTask};
-use crate::terrain::Maps;
 use crate::terrain::mission::Area;
+use crate::terrain::{Edge, Maps};
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -43,6 +43,7 @@ pub struct SkiEnvironments {
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
 }
+
 impl SkiEnvironments {
     /// Builds the batch. Nothing is reset yet.
     ///
@@ -92,12 +93,33 @@ impl SkiEnvironments {
         if self.areas.len() != self.maps.count() {
             refuse!("areas: expected {}, one per terrain, got {}", self.maps.count(), self.areas.len());
         }
+        for (k, area) in self.areas.iter().enumerate() {
+            self.check_area(k, area)?;
+        }
         let diagonal = |a: &Area| (DVec2::from(a.max) - DVec2::from(a.min)).length();
         if let Some(area) = self.areas.iter().find(|a| diagonal(a) < near) {
             refuse!(
                 "goal_distance: expected at most {:.1} m, the diagonal of the smallest terrain's area, got {near}",
                 diagonal(area)
             );
+        }
+        Ok(())
+    }
+
+    /// An episode drawn in a checked area can always begin: a batch begins them in the middle of a step.
+    fn check_area(&self, k: usize, area: &Area) -> Result<(), InputError> {
+        let (min, max) = (DVec2::from(area.min), DVec2::from(area.max));
+        let far = DVec2::splat(self.task.goal_distance.1);
+        let within = [min - far, max + far].iter().all(|c| self.maps.to_local(c.extend(0.0)).is_ok());
+        if !(min.cmple(max).all() && within) {
+            refuse!(
+                "areas[{k}]: expected min <= max, and beacons within 1e9 m and 1e9 tiles of the map, got {area:?}"
+            );
+        }
+        let low = DVec2::from(self.maps.grid().origin());
+        let high = low + self.maps.size();
+        if self.maps.grid().edge() == Edge::Void && !(low.cmple(min).all() && max.cmple(high).all()) {
+            refuse!("areas[{k}]: on edge \"void\" expected within {low} to {high}, got {area:?}");
         }
         Ok(())
     }

@@ -1,0 +1,57 @@
+//! What must hold of every tick, whatever the terrain, the state and the keys.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::draws::*;
+use common::lab::*;
+use discjump_core::real::Scalar;
+use discjump_core::scene::Has;
+use discjump_core::terrain::Heightfield;
+use proptest::prelude::*;
+
+fn check_invariants<T: Scalar>(
+    terrain: &Heightfield,
+    (mut place, velocity, yaw): Start,
+    keys: &[Keys],
+    deepest: f64,
+) -> Result<(), TestCaseError> {
+    let lab = Lab::<T>::new(terrain);
+    place[2] += lab.ground(place[0], place[1]);
+    let mut p: Body<T> = lab.player(place, velocity);
+    p.yaw = T::from_f64(yaw);
+    let speed = |p: &Body<T>| floats(p.velocity).iter().map(|v| v * v).sum::<f64>().sqrt();
+    // Gravity, jets, jump, walking, and the outward push of four contacts.
+    let gain = 20.0 * 0.032 + 236.0 / 9.0 * 0.032 + 75.0 / 9.0 + 360.0 / 9.0 * 0.032 + 4.0 * 0.001;
+    for &(forward, strafe, jump, jet, turn) in keys {
+        for _ in 0..10 {
+            let before = p;
+            p = lab.tick(&p, &input(forward, strafe, jump, jet, turn));
+            prop_assert!(numbers(&p).iter().all(|x| x.is_finite()), "{before:?} {p:?}");
+            let deep = lab.clearance(&p);
+            prop_assert!(deep >= -deepest, "{deep} m below: {before:?} {p:?}");
+            let (Has(energy), Has(damage), Has(old)) = (p.energy, p.damage, before.damage);
+            prop_assert!((0.0..=60.0).contains(&energy.to_f64()));
+            prop_assert!(damage >= old && old >= T::zero());
+            prop_assert!((0.0..=1.0).contains(&p.friction.to_f64()));
+            prop_assert!(
+                p.yaw.to_f64().abs() <= core::f64::consts::PI + 1e-6 && p.pitch.to_f64().abs() < 1.54
+            );
+            prop_assert!(speed(&p) <= speed(&before) + gain + 1e-4, "{before:?} {p:?}");
+            prop_assert!((-64.0..64.0).contains(&p.position.x.to_f64()));
+            prop_assert!((-64.0..64.0).contains(&p.position.y.to_f64()));
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_tick_leaves_a_possible_player(seed in 0..1000u64, start in start(), keys in keys()) {
+        let terrain = rough(seed);
+        check_invariants::<f32>(&terrain, start, &keys, 1e-3)?;
+        check_invariants::<f64>(&terrain, start, &keys, 1e-9)?;
+    }
+}
