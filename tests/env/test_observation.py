@@ -121,7 +121,8 @@ def test_over_nothing_an_agent_sees_the_lowest_height():
         assert np.isfinite(observation).all()
         z = envs.state()["position"][0, 2]
         close(names["height"][0], min(max(z - 20.0, 0.0), 240.0))
-        assert (names["ground_normal"] == 0.0).all() and names["landing_slope"] == 0.0
+        assert (names["ground_normal"] == 0.0).all()
+        assert names["landing_slope"] == 0.0
         close(names["landing_rise"][0], np.clip(20.0 - z, -160.0, 160.0))
         observation, *_, truncated, _ = envs.step(np.array([[1, 1, 0, 0, 3]]))
         if truncated[0]:
