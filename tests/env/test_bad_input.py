@@ -1,5 +1,7 @@
 """Bad input is refused with an exception that names the argument, and changes nothing."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 import pytest
@@ -88,8 +90,9 @@ def test_options_of_the_vector(options, kind, message):
 @pytest.mark.parametrize("name", ["scene", "armor", "fidelity", "energy_pack"])
 def test_choices_of_the_simulator(name):
     """Caught: armor=3 said "'int' object is not an instance of 'str'", of which argument only in a note."""
+    wrong: dict[str, Any] = {name: 3}
     with pytest.raises(TypeError, match=name):
-        discjump.Simulator(HERE, **{name: 3})
+        discjump.Simulator(HERE, **wrong)
 
 
 def test_unknown_option_through_gymnasium():

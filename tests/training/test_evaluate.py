@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from discjump_training import baselines, cli, evaluate, train
 from discjump_training.courses import HELD_OUT
 from discjump_training.episodes import FAILURE_SECONDS, Stage
+from discjump_training.errors import TrainingError
 
 EPISODES = 12
 
@@ -26,6 +28,7 @@ class EstimateJson(Strict):
 class PolicyJson(Strict):
     name: str
     actions: str
+    frame_skip: int
     success: EstimateJson
     seconds: EstimateJson
     mean_speed: EstimateJson
@@ -144,6 +147,32 @@ def test_a_folder_without_a_model_and_a_damaged_one(tmp_path):
     result = invoke(tmp_path, "--no-baselines", "--episodes", 2)
     assert result.exit_code == 1
     assert "best.zip is not a readable model file" in result.output
+
+
+def judged(name, **options):
+    played = Stage(HELD_OUT, 4, baselines.OPTIONS | options).play(baselines.Random())
+    return evaluate.Judged(name, "uniform", True, played, {}, options.get("frame_skip", 4))
+
+
+def test_only_the_same_episodes_are_compared():
+    """Caught: episodes were paired by their row alone, whatever was played in them."""
+    a, b = judged("a"), judged("b", frame_skip=2, landing=True)
+    assert len(evaluate.compare([a, b])) == 1
+    with pytest.raises(TrainingError, match=r"a and c cannot be compared: .*start_distance differs"):
+        evaluate.compare([a, judged("c", goal_distance=(300.0, 700.0))])
+    for key in evaluate.SHARED:
+        spoilt = getattr(a.episodes, key).copy()
+        spoilt.view(np.uint8).reshape(-1)[0] ^= 1
+        other = replace(a, name="d", episodes=replace(a.episodes, **{key: spoilt}))
+        with pytest.raises(TrainingError, match=f"{key} differs"):
+            evaluate.compare([a, other])
+
+
+def test_another_frame_skip_is_named():
+    """Caught: a model trained at 2 ticks per decision stood unmarked beside ones at 4."""
+    one = evaluate.Judged("m", "greedy", True, judged("m").episodes, {}, 2)
+    assert one.actions == "greedy, frame_skip 2"
+    assert replace(one, frame_skip=4).actions == "greedy"
 
 
 def test_models_come_first_and_nobody_twice():

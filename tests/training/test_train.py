@@ -131,7 +131,8 @@ def test_killed_between_the_last_two_files_a_run_can_still_end(tiny, tmp_path, m
 
 def test_a_ctrl_c_right_after_an_update_still_leaves_a_checkpoint(tmp_path, monkeypatch):
     """Caught: a Ctrl-C between the two looks at the flag broke off the run, and nothing was saved."""
-    after, interrupted = train.Watcher._after_update, []
+    after = train.Watcher._after_update
+    interrupted: list[bool] = []
 
     def after_update(self):
         after(self)

@@ -82,6 +82,11 @@ class Stage:
         """Largest turn of the action space, rad/s."""
         return float(self.inner.options.turn_rate)
 
+    @property
+    def frame_skip(self) -> int:
+        """Ticks per decision."""
+        return int(self.inner.options.frame_skip)
+
     def play(self, policy: Policy, record: tuple[int, ...] = ()) -> Episodes:
         """Play every episode to its end.
 

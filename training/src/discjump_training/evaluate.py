@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from discjump.envs.options import SkiOptions
 from discjump_training import baselines, intervals, model
 from discjump_training.courses import COURSES, Course
 from discjump_training.episodes import FAILURE_SECONDS, Episodes, Stage
-from discjump_training.errors import ModelError
+from discjump_training.errors import ModelError, TrainingError
 from discjump_training.intervals import Estimate
 from discjump_training.policy import Policy
 from discjump_training.recipe import Watch
@@ -26,17 +27,36 @@ FIGURES = (
     ("damage", "damage", "", 3),
 )
 FIDELITY = "authentic"
+#: Ticks per decision of the task; a model that was trained with another is judged with its own, and says so.
+FRAME_SKIP = SkiOptions.frame_skip
+#: What two policies' episodes must have in common to be compared pair by pair.
+SHARED = ("start_distance", "terrain", "goals")
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A policy and what it did."""
+    """A policy and what it did.
+
+    Attributes:
+        name: of the policy.
+        note: how actions are chosen.
+        is_model: no baseline.
+        episodes: what happened.
+        figures: estimates by key of `FIGURES`.
+        frame_skip: ticks per decision that it played with.
+    """
 
     name: str
     note: str
     is_model: bool
     episodes: Episodes
     figures: dict[str, Estimate]
+    frame_skip: int = FRAME_SKIP
+
+    @property
+    def actions(self) -> str:
+        """How actions are chosen, with the ticks per decision where they are not the task's."""
+        return self.note if self.frame_skip == FRAME_SKIP else f"{self.note}, frame_skip {self.frame_skip}"
 
 
 @dataclass(frozen=True)
@@ -114,7 +134,7 @@ def judge(
         else intervals.mean(getattr(played, key))
         for key, *_ in FIGURES
     }
-    return Judged(policy.name, policy.note, is_model, played, figures)
+    return Judged(policy.name, policy.note, is_model, played, figures, stage.frame_skip)
 
 
 def level(name: str, threads: int | None) -> float:
@@ -125,7 +145,11 @@ def level(name: str, threads: int | None) -> float:
 
 
 def compare(judged: list[Judged]) -> list[Comparison]:
-    """Every model against every baseline; without models, every baseline against the ones after it."""
+    """Every model against every baseline; without models, every baseline against the ones after it.
+
+    Raises:
+        TrainingError: if two of them did not play the same episodes: `SHARED` must be equal bit for bit.
+    """
     models = [one for one in judged if one.is_model]
     if models:
         pairs = [(a, b) for a in models for b in judged if not b.is_model]
@@ -136,6 +160,12 @@ def compare(judged: list[Judged]) -> list[Comparison]:
 
 
 def _comparison(a: Judged, b: Judged) -> Comparison:
+    for key in SHARED:
+        if getattr(a.episodes, key).tobytes() != getattr(b.episodes, key).tobytes():
+            raise TrainingError(
+                f"{a.name} and {b.name} cannot be compared: expected the same episodes, "
+                f"but their {key} differs"
+            )
     x, y, terrain = a.episodes.seconds, b.episodes.seconds, a.episodes.terrain
     used = sorted(set(terrain.tolist()))
     return Comparison(
@@ -169,6 +199,7 @@ def as_json(
             {
                 "name": one.name,
                 "actions": one.note,
+                "frame_skip": one.frame_skip,
                 **{key: one.figures[key].as_dict() for key, *_ in FIGURES},
                 "deaths": int(one.episodes.death.sum()),
                 "episode_seconds": [round(value, 3) for value in one.episodes.seconds.tolist()],

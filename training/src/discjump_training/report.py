@@ -6,7 +6,7 @@ from rich.console import Console
 from rich.table import Table
 
 from discjump_training.courses import Course
-from discjump_training.evaluate import FIDELITY, FIGURES, Comparison, Judged
+from discjump_training.evaluate import FIDELITY, FIGURES, FRAME_SKIP, Comparison, Judged
 from discjump_training.intervals import Estimate
 
 #: Fewer episodes than this are too few to publish.
@@ -19,7 +19,7 @@ def rows(judged: list[Judged]) -> tuple[list[str], list[list[str]]]:
     return heading, [
         [
             one.name,
-            one.note,
+            one.actions,
             *(_with_interval(one.figures[key], unit, digits) for key, _, unit, digits in FIGURES),
         ]
         for one in judged
@@ -48,8 +48,9 @@ def caption(course: Course, episodes: int) -> str:
         "" if episodes >= ENOUGH_EPISODES else f" Fewer than {ENOUGH_EPISODES} episodes: too few to publish."
     )
     return (
-        f"{course.name}: {episodes} fixed episodes, the same for every policy, fidelity {FIDELITY}, "
-        "in brackets 95% intervals. "
+        f"{course.name}: {episodes} fixed episodes, the same for every policy (start distance, terrain and "
+        f"beacon are equal bit for bit), fidelity {FIDELITY}, frame_skip {FRAME_SKIP} unless another is "
+        "named, in brackets 95% intervals. "
         f"Time-outs and deaths count as 60 s.{few}"
     )
 
