@@ -44,7 +44,8 @@ class Ground:
 
     def __init__(self, terrain: discjump.Terrain) -> None:
         heights = np.asarray(terrain.heights)
-        self.rows, self.columns = heights.shape
+        self.rows: int = heights.shape[0]
+        self.columns: int = heights.shape[1]
         self.heights: list[list[float]] = heights.tolist()
         self.side = terrain.square_size
         self.origin = terrain.origin
