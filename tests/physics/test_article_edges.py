@@ -164,7 +164,7 @@ def test_edges_diagonals_and_vertices(edge: str) -> None:
     lines = [-80.0, -64.0, 0.0, 4.0, 8.0, 12.0, 64.0, 200.0]
     xy = np.array(list(itertools.product(lines, lines)))
     for velocity in [(0.0, 0.0, -30.0), (0.0, 20.0, -9.0), (-20.0, 0.0, -9.0)]:
-        pair = Pair(terrain, len(xy), position=above(terrain, xy, 0.4), velocity=velocity)
+        pair = Pair(terrain, len(xy), position=above(terrain, xy, 0.1), velocity=velocity)
         pair.step(pair.inputs())
         assert pair.contacts.sum() >= len(xy) // 2
 
