@@ -97,8 +97,7 @@ train: setup ## Set up, train a ski agent, judge it on terrain it never saw
 
 smoke: setup ## The main job in about 30 seconds, to see that it runs
 	@run=$$(mktemp -d) && trap 'rm -rf "$$run"' EXIT && \
-	  $(VENV)/bin/discjump train ski --smoke --out "$$run/ski" && \
-	  $(VENV)/bin/discjump evaluate "$$run/ski" --episodes 16
+	  $(VENV)/bin/discjump train ski --smoke --evaluate --out "$$run/ski"
 
 # ---------------------------------------------------------------------------------------------- tests
 

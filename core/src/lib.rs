@@ -13,11 +13,13 @@
 //!             armor, rules  constants
 //!             real          the number type: f64, f32, later lanes
 //! random                    counted draws, used by terrain, task and batch
+//! float_environment         rounding as the language has it, whatever the caller's thread was set to
 //! ```
 
 pub mod armor;
 pub mod batch;
 pub mod error;
+mod float_environment;
 pub mod forces;
 pub mod input;
 pub mod movement;

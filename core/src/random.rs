@@ -11,11 +11,11 @@ use xxhash_rust::xxh3::xxh3_64;
 pub enum Purpose {
     /// Which map of the pool an episode plays on.
     Terrain = 1,
-    /// Where an episode starts, and which way the player looks.
+    /// Where an episode starts.
     Start = 2,
     /// Where the beacon stands.
     Goal = 3,
-    /// The player's velocity at the start.
+    /// Which way the player looks at the start, and his velocity.
     Velocity = 4,
     /// The generator of Raindance-like terrain.
     Generator = 5,

@@ -21,7 +21,7 @@ pub fn wrap_angle<R: Real>(angle: R) -> R {
     let turns = ((angle + pi) / turn).floor_int();
     let wrapped = angle - R::from_int(turns) * turn;
     let wrapped = R::select(pi.le(wrapped), wrapped - turn, wrapped);
-    // -pi rounds to a number below it in neither type, so a clamp from below is exact.
+    // The interval's ends are those of the tier: in f32 -pi itself is rounded outwards, by 9e-8.
     wrapped.max(-pi)
 }
 

@@ -32,7 +32,7 @@ impl Simulator {
 }
 
 /// Names, numpy codes and counts of a state, its position first.
-pub fn state_fields(fields: &[discjump_core::batch::StateField]) -> Vec<(&'static str, &'static str, usize)> {
+pub fn state_fields(fields: &[discjump_core::player::Field]) -> Vec<(&'static str, &'static str, usize)> {
     let rest = fields.iter().map(|f| (f.name, f.kind.numpy_code(), f.count));
     core::iter::once(("position", "<f8", 3)).chain(rest).collect()
 }

@@ -17,6 +17,7 @@ OPTIONS = [
     ({"fidelity": "exact"}, ValueError, "fidelity"),
     ({"fidelity": 3}, TypeError, "fidelity"),
     ({"armor": "feather"}, ValueError, "armor"),
+    ({"armor": 3}, TypeError, "armor"),
     ({"energy_pack": 1}, TypeError, "energy_pack"),
     ({"physics": {"ski_bug": True}}, TypeError, "physics"),
     ({"physics": None}, TypeError, "physics"),
@@ -34,6 +35,7 @@ OPTIONS = [
     ({"goal_distance": (800.0, 300.0)}, ValueError, "goal_distance"),
     ({"goal_distance": (300.0,)}, ValueError, "goal_distance"),
     ({"goal_distance": 300.0}, TypeError, "goal_distance"),
+    ({"goal_distance": (300.0, 1.1e6)}, ValueError, r"goal_distance\[1\]"),
     ({"start_speed": -1.0}, ValueError, "start_speed"),
     ({"reward": {"progres": 1.0}}, ValueError, "did you mean 'progress'"),
     ({"reward": {"time": float("nan")}}, ValueError, "time"),
@@ -73,6 +75,7 @@ def test_options(make, options, kind, message):
         ({"num_envs": -1}, ValueError, "num_envs"),
         ({"num_envs": 2.0}, TypeError, "num_envs"),
         ({"threads": 0}, ValueError, "threads"),
+        ({"threads": 257}, ValueError, "threads: expected an integer from 1 to 256"),
         ({"threads": "two"}, TypeError, "threads"),
         ({"autoreset_mode": "Never"}, ValueError, "autoreset_mode"),
     ],
@@ -80,6 +83,13 @@ def test_options(make, options, kind, message):
 def test_options_of_the_vector(options, kind, message):
     with pytest.raises(kind, match=message):
         gymnasium.make_vec("discjump/Ski-v0", **({"num_envs": 2} | options))
+
+
+@pytest.mark.parametrize("name", ["scene", "armor", "fidelity", "energy_pack"])
+def test_choices_of_the_simulator(name):
+    """Caught: armor=3 said "'int' object is not an instance of 'str'", of which argument only in a note."""
+    with pytest.raises(TypeError, match=name):
+        discjump.Simulator(HERE, **{name: 3})
 
 
 def test_unknown_option_through_gymnasium():

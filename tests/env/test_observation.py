@@ -103,3 +103,34 @@ def test_landing(seen):
         agree.append(abs(names["landing_time"][k, 0] - first) < 0.05)
     # Looks 0.15 s apart may step over a crest, and a player on the ground lands at once.
     assert np.mean(agree) > 0.85
+
+
+def test_over_nothing_an_agent_sees_the_lowest_height():
+    """Beyond a void map's rim an agent sees level ground at the map's lowest height.
+
+    The rim's own square used to be seen there: 86 m outside, the landing was 89 m up a slope that does not
+    exist, and a fall past it could divide by zero.
+    """
+    heights = np.linspace(20.0, 100.0, 65 * 65).reshape(65, 65)
+    terrain = discjump.Terrain.from_heights(heights, edge="void")
+    envs = SkiVectorEnv(1, terrains=[terrain], arrival_radius=1.0, goal_distance=(50.0, 100.0))
+    outside = {"start": np.array([600.0, 300.0, 130.0]), "goal": np.array([100.0, 100.0])}
+    observation, _ = envs.reset(seed=0, options=outside)
+    for _ in range(80):
+        names = {f.name: observation[0, f.slice] * f.scale for f in envs.observation_layout}
+        assert np.isfinite(observation).all()
+        z = envs.state()["position"][0, 2]
+        close(names["height"][0], min(max(z - 20.0, 0.0), 240.0))
+        assert (names["ground_normal"] == 0.0).all()
+        assert names["landing_slope"] == 0.0
+        close(names["landing_rise"][0], np.clip(20.0 - z, -160.0, 160.0))
+        observation, *_, truncated, _ = envs.step(np.array([[1, 1, 0, 0, 3]]))
+        if truncated[0]:
+            break
+
+
+def test_nobody_is_put_where_a_tick_of_falling_is_lost_to_rounding():
+    """At 1e8 m an f32 player hung in the air for ever, while his speed grew."""
+    envs = SkiVectorEnv(1, terrain_seeds=[0])
+    with pytest.raises(ValueError, match="100000 m of height 0"):
+        envs.reset(seed=0, options={"start": np.array([0.0, 0.0, 1e8])})

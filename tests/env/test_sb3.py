@@ -15,6 +15,7 @@ import pytest
 
 pytest.importorskip("stable_baselines3")
 
+from gymnasium.error import ResetNeeded
 from stable_baselines3 import PPO
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
@@ -70,7 +71,10 @@ def test_same_bits_as_dummy_vec_env(actions):
             assert episode["r"] == pytest.approx(other_episode["r"], abs=1e-6)
             assert episode["t"] >= 0
             same_bits(info, other, f"step {t} of environment {index}")
-            same_bits(ours.reset_infos[index], theirs.reset_infos[index])
+            # Read off a float32 observation, scaled twice: three roundings of 2**-24.
+            begun, other_begun = ours.reset_infos[index], theirs.reset_infos[index]
+            assert begun == pytest.approx(other_begun, rel=3 * 2.0**-24)
+            assert list(map(type, begun.values())) == list(map(type, other_begun.values()))
     assert ends > 10
 
 
@@ -183,6 +187,33 @@ def test_options_apply_to_the_next_reset_only():
     assert all(300 <= info["distance"] <= 800 for info in envs.reset_infos)
 
 
+def test_the_end_of_one_episode_asks_nothing_of_all_environments(monkeypatch):
+    """Caught: any end made the status of all environments, for the reset_infos of a few."""
+    envs = make(4)
+    envs.reset()
+
+    class Batch:
+        def __init__(self, batch):
+            self.batch = batch
+
+        def __getattr__(self, name):
+            assert name not in ("status", "state", "goals"), name
+            return getattr(self.batch, name)
+
+    monkeypatch.setattr(envs._task, "batch", Batch(envs._task.batch))
+    assert sum(envs.step(action)[2].sum() for action in random_actions(3, 80, 4)) > 4
+
+
+def test_a_snapshot_from_before_the_first_reset_needs_a_reset():
+    """Caught: restoring said that every environment was reset, whatever the snapshot held."""
+    envs = make(3)
+    fresh = envs.snapshot()
+    envs.reset()
+    envs.restore(fresh)
+    with pytest.raises(ResetNeeded):
+        envs.step(random_actions(0, 1, 3)[0])
+
+
 def test_attributes_and_methods():
     envs = make(3)
     assert envs.get_attr("render_mode") == [None] * 3
@@ -257,7 +288,12 @@ def test_a_snapshot_brings_every_environment_back():
         one.restore(snapshot)
         for action, expected in zip(actions[40:], tail, strict=True):
             same_bits(one.step(action)[:3], expected)
-    with pytest.raises(ValueError, match="snapshot"):
-        twin.restore(snapshot[:-3])
+    for spoilt in (snapshot[:-3], snapshot[:-2] + b"xx", snapshot[:90] + b"x" + snapshot[91:], b""):
+        before = twin.snapshot()
+        with pytest.raises(ValueError, match="snapshot"):
+            twin.restore(spoilt)
+        assert twin.snapshot() == before
+    with pytest.raises(TypeError, match="snapshot"):
+        twin.restore("text")
     with pytest.raises(ValueError, match="snapshot"):
         make(4).restore(snapshot)

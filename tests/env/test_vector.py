@@ -238,3 +238,17 @@ def test_workers_of_other_processes_give_the_same_bits():
             same_bits(ours.step(action)[:4], theirs.step(action)[:4])
     finally:
         theirs.close()
+
+
+def test_a_snapshot_of_ended_episodes_keeps_them_ended():
+    """Caught: restoring said that no episode was over, and a disabled one could be stepped beyond its end."""
+    envs = SkiVectorEnv(2, autoreset_mode=AutoresetMode.DISABLED, **(SHORT | {"time_limit": 0.128}))
+    envs.reset(seed=0)
+    running = envs._task.snapshot()
+    assert envs.step(random_actions(0, 1, 2)[0])[3].all()
+    over = envs._task.snapshot()
+    envs._task.restore(running)
+    envs.step(random_actions(0, 1, 2)[0])
+    envs._task.restore(over)
+    with pytest.raises(ResetNeeded):
+        envs.step(random_actions(0, 1, 2)[0])

@@ -1,9 +1,10 @@
+import tomllib
 from dataclasses import asdict
 
 import numpy as np
 import pytest
 
-from discjump_training import baselines
+from discjump_training import baselines, tune
 from discjump_training.baselines.script import Script, SkierParameters, TackerParameters, bounds
 from discjump_training.baselines.sight import Sight
 from discjump_training.baselines.steering import ANGLES, press, wrap
@@ -66,6 +67,12 @@ def test_tuned_constants_lie_within_their_bounds(name):
         assert low <= value <= high, field
 
 
+def test_tuning_measures_what_it_prints():
+    """Caught: the figures beside the constants were measured before they were rounded to four digits."""
+    found = tune.search("skier", generations=0, population=5, episodes=1, seed=0, threads=1)
+    assert SkierParameters(**tomllib.loads(baselines.to_toml(found))) == found
+
+
 @pytest.mark.parametrize("name", baselines.NAMES)
 def test_episodes_are_the_same_every_time(name, stage):
     first, second = (stage.play(baselines.make(name, stage)) for _ in range(2))
@@ -101,6 +108,16 @@ def test_a_missing_part_is_named():
     layout, observation = layout_and_observation(velocity=[0.0, 0.0, 0.0])
     with pytest.raises(TrainingError, match=r"no part 'energy'; it has velocity"):
         layout.read(observation, "energy")
+
+
+def test_without_a_fan_the_rise_ahead_is_refused():
+    """Caught: an IndexError out of an empty array."""
+    values = {
+        name: 0.0 for name in reading()[0].slices if name not in ("fan", "velocity", "beacon_direction")
+    }
+    layout, observation = layout_and_observation(velocity=[0.0] * 3, beacon_direction=[1.0, 0.0], **values)
+    with pytest.raises(TrainingError, match="no part 'fan'"):
+        Sight.of(layout, observation, np.array(baselines.RANGES)).rise(20.0)
 
 
 def test_press_reaches_every_direction_after_its_turn():

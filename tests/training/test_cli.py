@@ -45,6 +45,19 @@ def test_ctrl_c_says_how_to_go_on_and_going_on_works(tmp_path, monkeypatch):
     assert str(folder / "best.zip") in result.output
 
 
+def test_without_a_checkpoint_nobody_is_sent_to_one(tmp_path, monkeypatch):
+    """Caught: stopped at once before the first checkpoint, the message said to go on from the last one."""
+
+    def interrupted(self):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(train.TimedVecEnv, "step_wait", interrupted)
+    result = ski(*SETTINGS, "--out", tmp_path / "run", "--quiet")
+    assert result.exit_code == 130
+    assert "before the first checkpoint" in result.output
+    assert "--resume" not in result.output
+
+
 @pytest.mark.parametrize(
     ("arguments", "message", "code"),
     [

@@ -2,6 +2,7 @@ import tomllib
 
 import pytest
 
+from discjump.envs.options import REWARD
 from discjump_training import recipe
 from discjump_training.errors import RecipeError
 from discjump_training.recipe import Recipe, Section
@@ -55,6 +56,11 @@ def test_the_ablation_differs_in_the_fan_alone():
 def test_what_does_not_fit_is_refused_by_name(override, message):
     with pytest.raises(RecipeError, match=message):
         Recipe.load("ski", (override,))
+
+
+def test_the_reward_by_default_is_the_environments():
+    """Caught: the recipe said -0.156 per second where the environment says -0.15625."""
+    assert Recipe.load("ski").environment.reward.model_dump() == REWARD
 
 
 def test_unreadable_files_are_refused(tmp_path):

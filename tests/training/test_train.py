@@ -10,6 +10,8 @@ from discjump_training import model, runs, train
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.recipe import Recipe
 
+from .conftest import TINY
+
 
 def stop_after(monkeypatch, steps: int, times: int = 1) -> None:
     """Send Ctrl-C during the given step of the environments."""
@@ -84,6 +86,64 @@ def test_a_second_ctrl_c_stops_at_once(tiny, tmp_path, monkeypatch):
         train.train(tiny, 0, tmp_path / "run", quiet=True)
     assert [path.name for path in runs.checkpoints(tmp_path / "run")] == ["000000000256.zip"]
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_run_without_a_checkpoint_is_begun_anew(tiny, tmp_path, monkeypatch):
+    """Caught: what a crash or a second Ctrl-C left in the folder made it "not an empty folder" for ever."""
+    folder = tmp_path / "run"
+    with monkeypatch.context() as patch:
+        stop_after(patch, steps=24, times=2)
+        rare = Recipe.load("ski", (*TINY, "watch.checkpoint_every=1_000_000", "watch.evaluate_every=256"))
+        with pytest.raises(KeyboardInterrupt):
+            train.train(rare, 0, folder, quiet=True)
+    left = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
+    assert {"recipe.toml", "best.zip", "curve.csv", "tensorboard", "checkpoints"} <= left
+    (folder / "tensorboard" / "mine.txt").write_text("mine")
+    with pytest.raises(TrainingError, match="not an empty folder"):
+        train.train(tiny, 0, folder, quiet=True)
+    assert {path.relative_to(folder).as_posix() for path in folder.rglob("*")} == {
+        *left, "tensorboard/mine.txt"
+    }  # fmt: skip
+    (folder / "tensorboard" / "mine.txt").unlink()
+    assert train.train(tiny, 0, folder, quiet=True).finished
+    assert len(list((folder / "tensorboard").iterdir())) == 1
+
+
+def test_killed_between_the_last_two_files_a_run_can_still_end(tiny, tmp_path, monkeypatch):
+    """Caught: with the last checkpoint but no final.zip, resuming said "is trained already" for ever."""
+    folder, save = tmp_path / "run", model.save
+
+    def killed(ppo, path, *rest):
+        if path.name in ("final.zip", "000000001024.zip"):
+            save(ppo, path, *rest)
+            raise KeyboardInterrupt
+        save(ppo, path, *rest)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(model, "save", killed)
+        with pytest.raises(KeyboardInterrupt):
+            train.train(tiny, 0, folder, quiet=True)
+    if not (folder / "final.zip").exists():
+        train.train(tiny, 0, folder, resume=True, quiet=True)
+    assert (folder / "final.zip").exists()
+    assert train.train(tiny, 0, folder, resume=True, quiet=True).finished
+
+
+def test_a_ctrl_c_right_after_an_update_still_leaves_a_checkpoint(tmp_path, monkeypatch):
+    """Caught: a Ctrl-C between the two looks at the flag broke off the run, and nothing was saved."""
+    after, interrupted = train.Watcher._after_update, []
+
+    def after_update(self):
+        after(self)
+        if not interrupted:
+            interrupted.append(True)
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(train.Watcher, "_after_update", after_update)
+    rare = Recipe.load("ski", (*TINY, "watch.checkpoint_every=1_000_000"))
+    result = train.train(rare, 0, tmp_path / "run", quiet=True)
+    assert not result.finished
+    assert runs.newest_checkpoint(tmp_path / "run").stem == f"{result.steps:012d}"
 
 
 def test_what_a_run_leaves_behind(tiny, tmp_path):

@@ -2,11 +2,10 @@
 
 mod codec;
 mod environment;
-mod float_environment;
 mod pool;
 mod simulator;
 mod snapshot;
 
 pub use environment::{Autoreset, Environments, ResetRequest, SkiEnvironments, Status, StepOutput};
 pub use pool::{INLINE_BELOW, MAX_THREADS};
-pub use simulator::{Bodies, MAX_PLAYERS, MAX_SPEED, RawInput, SimulatorSetup, StateField};
+pub use simulator::{Bodies, MAX_PLAYERS, MAX_SPEED, RawInput, SimulatorSetup};

@@ -1,14 +1,14 @@
 //! A batch of players and nothing else: state in, ticks, state out.
 
 use super::codec::{read_player, write_player};
-use super::float_environment::DefaultFloats;
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
 use super::snapshot;
 use crate::armor::Armor;
 use crate::error::{InputError, refuse};
+use crate::float_environment::DefaultFloats;
 use crate::input::{Input, MAX_TURN_RATE};
 use crate::movement::{Movement, Sliced};
-use crate::player::{OLDEST_MS, Player, fields, local};
+use crate::player::{Field, OLDEST_MS, Player, fields, local, packed_bytes};
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules};
 use crate::scene::{Group, Sandbox, Scene, Ski};
@@ -81,9 +81,6 @@ impl RawInput {
     }
 }
 
-/// One field of a structured state: name, type, count.
-pub type StateField = crate::player::Field;
-
 /// What every batch of bodies can do, whatever its scene and tier.
 pub trait Bodies: Send + Sync {
     /// How many players.
@@ -93,10 +90,10 @@ pub trait Bodies: Send + Sync {
         self.len() == 0
     }
     /// The fields of a player's state after `position` (three f64), packed.
-    fn state_fields(&self) -> Vec<StateField>;
+    fn state_fields(&self) -> Vec<Field>;
     /// Bytes of one player in [`Bodies::state`].
     fn state_bytes(&self) -> usize {
-        24 + self.state_fields().iter().map(|f| f.kind.bytes() * f.count).sum::<usize>()
+        24 + packed_bytes(&self.state_fields())
     }
     /// Bytes that one player takes in memory.
     fn player_bytes(&self) -> usize;
@@ -133,6 +130,8 @@ pub struct Simulator<S: Scene, M: Movement, R: Real> {
     blocks: Vec<Player<S, R>>,
     count: usize,
     threads: usize,
+    /// Whether a step panicked half-way: better no bits than wrong ones.
+    broken: bool,
     layout: String,
     movement: core::marker::PhantomData<M>,
 }
@@ -217,6 +216,7 @@ impl SimulatorSetup<'_> {
         }
         let armor = find_armor(self.armor)?;
         check_tick(self.tick_ms)?;
+        let _floats = DefaultFloats::enter();
         let threads = resolve_threads(self.threads)?;
         let maps = Maps::new(core::slice::from_ref(self.terrain))?;
         let rules = Rules::new(armor, self.energy_pack, self.tick_ms, self.physics);
@@ -239,6 +239,7 @@ impl SimulatorSetup<'_> {
             blocks: vec![fresh; self.players.div_ceil(R::LANES)],
             count: self.players,
             threads,
+            broken: false,
             layout,
             movement: core::marker::PhantomData,
         }))
@@ -250,7 +251,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         self.count
     }
 
-    fn state_fields(&self) -> Vec<StateField> {
+    fn state_fields(&self) -> Vec<Field> {
         fields::<S, R::Scalar>(false)
     }
 
@@ -274,6 +275,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
     }
 
     fn set_state(&mut self, indices: &[usize], states: &[u8]) -> Result<(), InputError> {
+        let _floats = DefaultFloats::enter();
         let stride = self.state_bytes();
         if states.len() != indices.len() * stride {
             refuse!("state: expected {} states of {stride} bytes, got {} bytes", indices.len(), states.len());
@@ -302,6 +304,9 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
     }
 
     fn step(&mut self, inputs: &[RawInput], ticks: u32) -> Result<(), InputError> {
+        if self.broken {
+            refuse!("an earlier step of this simulator failed: restore a snapshot, or make a new one");
+        }
         if inputs.len() != self.count {
             refuse!("inputs: expected {} rows, got {}", self.count, inputs.len());
         }
@@ -322,12 +327,17 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
             }
         };
         let per_task = CHUNK.div_ceil(R::LANES);
-        if self.threads == 1 || self.count < INLINE_BELOW {
-            play((&mut self.blocks, inputs));
-        } else {
-            let chunks = self.blocks.par_chunks_mut(per_task).zip(inputs.par_chunks(per_task * R::LANES));
-            pool(self.threads)?.install(|| chunks.for_each(play));
+        let pool =
+            if self.threads == 1 || self.count < INLINE_BELOW { None } else { Some(pool(self.threads)?) };
+        self.broken = true;
+        match pool {
+            None => play((&mut self.blocks, inputs)),
+            Some(pool) => {
+                let chunks = self.blocks.par_chunks_mut(per_task).zip(inputs.par_chunks(per_task * R::LANES));
+                pool.install(|| chunks.for_each(play));
+            }
         }
+        self.broken = false;
         Ok(())
     }
 
@@ -337,7 +347,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
 
     fn restore(&mut self, bytes: &[u8]) -> Result<(), InputError> {
         let body = snapshot::open(&self.layout, self.count, bytes)?;
-        let stride = fields::<S, R::Scalar>(true).iter().map(|f| f.kind.bytes() * f.count).sum::<usize>();
+        let stride = packed_bytes(&fields::<S, R::Scalar>(true));
         if body.len() != stride * self.count {
             refuse!("snapshot: expected {} bytes of players, got {}", stride * self.count, body.len());
         }
@@ -346,6 +356,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
             read_player(&mut p, true, bytes);
             self.blocks[i / R::LANES].set_lane(i % R::LANES, &p);
         }
+        self.broken = false;
         Ok(())
     }
 

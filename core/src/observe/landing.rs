@@ -1,5 +1,6 @@
 //! Where the player would come down if he let himself fall: the ballistic landing.
 
+use super::seen_ground;
 use crate::player::Player;
 use crate::real::{Scalar, V3};
 use crate::scene::Scene;
@@ -30,13 +31,14 @@ pub(super) fn landing<S: Scene, T: Scalar>(
     p: &Player<S, T>,
     gravity: T,
     surface: &Surface<'_, T>,
+    lowest: T,
 ) -> Landing<T> {
     let half = T::from_f64(0.5);
     let step = T::from_f64(HORIZON / f64::from(LOOKS));
     let at = |t: T| -> V3<T> {
         p.position + p.velocity * t + V3::new(T::zero(), T::zero(), gravity * t * t * half)
     };
-    let ground = |place: V3<T>| surface.ground::<T>(p.map, place.x, place.y);
+    let ground = |place: V3<T>| seen_ground(surface, p.map, place.x, place.y, lowest);
     let mut gap = (p.position.z - ground(p.position).height).max(T::zero());
     let mut before = T::zero();
     for look in 1..=LOOKS {
@@ -44,7 +46,7 @@ pub(super) fn landing<S: Scene, T: Scalar>(
         let place = at(time);
         let below = ground(place);
         let next = place.z - below.height;
-        if next < T::zero() && below.exists {
+        if next < T::zero() {
             let time = before + (time - before) * (gap / (gap - next));
             let place = at(time);
             let there = ground(place);

@@ -1,6 +1,7 @@
 //! The observation of the ski task.
 
 use super::landing::{HORIZON, landing};
+use super::seen_ground;
 use crate::armor::{GRAVITY, JUMP_GRACE_MS};
 use crate::error::{InputError, refuse};
 use crate::player::Player;
@@ -156,8 +157,8 @@ impl SkiObservation {
         let distance = (bx * bx + by * by).sqrt();
         let safe = distance.max(t(1e-3));
         let (ux, uy) = (bx / safe, by / safe);
-        let ground = surface.ground::<T>(p.map, p.position.x, p.position.y);
-        let below = if ground.exists { ground.height } else { lowest };
+        let ground = seen_ground(surface, p.map, p.position.x, p.position.y, lowest);
+        let below = ground.height;
         let height = (p.position.z - below).max(T::zero());
         let normal = ground.normal();
 
@@ -185,7 +186,7 @@ impl SkiObservation {
             row.push(&[p.damage.get(one)], one / rules.max_damage);
         }
         if self.landing {
-            let there = landing(p, t(GRAVITY), surface);
+            let there = landing(p, t(GRAVITY), surface, lowest);
             let [gx, gy] = there.slope;
             let up = one / (gx * gx + gy * gy + one).sqrt();
             let along = (gx * v.x + gy * v.y) / speed.max(one);
@@ -201,8 +202,8 @@ impl SkiObservation {
             let dy = ahead * cos + aside * sin;
             for &range in &self.ranges {
                 let range = t(range);
-                let g = surface.ground::<T>(p.map, p.position.x + dx * range, p.position.y + dy * range);
-                let z = if g.exists { g.height } else { lowest };
+                let (x, y) = (p.position.x + dx * range, p.position.y + dy * range);
+                let z = seen_ground(surface, p.map, x, y, lowest).height;
                 row.push(&[(z - below) / range], one);
             }
         }

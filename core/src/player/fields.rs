@@ -28,9 +28,7 @@ impl FieldKind {
             Self::Flag => 1,
         }
     }
-}
 
-impl FieldKind {
     /// numpy's code for it, packed and little-endian.
     #[must_use]
     pub fn numpy_code(self) -> &'static str {
@@ -135,4 +133,10 @@ pub fn fields<S: Scene, T: Scalar>(place: bool) -> Vec<Field> {
     let mut describe = Describe(Vec::new());
     visit(&mut Player::<S, T>::new(&rules, V3::zero(), 0), &mut describe, place);
     describe.0
+}
+
+/// Bytes of one player's fields, packed.
+#[must_use]
+pub fn packed_bytes(fields: &[Field]) -> usize {
+    fields.iter().map(|f| f.kind.bytes() * f.count).sum()
 }

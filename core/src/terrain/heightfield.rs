@@ -44,6 +44,41 @@ pub const SQUARE_RANGE: (f64, f64) = (0.01, 10_000.0);
 /// Most vertices of one map.
 pub const MAX_VERTICES: usize = 1 << 28;
 
+/// The shape, squares, place and edge of a heightfield.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Vertices north.
+    pub rows: usize,
+    /// Vertices east.
+    pub cols: usize,
+    /// Side of a square, m.
+    pub square_size: f64,
+    /// Place of the first vertex, m.
+    pub origin: [f64; 2],
+    /// What lies beyond the rim.
+    pub edge: Edge,
+}
+
+impl Grid {
+    /// Vertices in all.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.rows * self.cols
+    }
+
+    /// Column and row of the vertex nearest the centre: local coordinates count from it.
+    #[must_use]
+    pub fn centre_vertex(&self) -> [usize; 2] {
+        [(self.cols - 1) / 2, (self.rows - 1) / 2]
+    }
+
+    /// Sides of the map along x and y, m: the period of a tiling one.
+    #[must_use]
+    pub fn size(&self) -> [f64; 2] {
+        [(self.cols - 1) as f64 * self.square_size, (self.rows - 1) as f64 * self.square_size]
+    }
+}
+
 /// A heightfield: vertex heights, `heights[row y * cols + column x]`, metres.
 ///
 /// Square (i, j), i east and j north, is cut from its low-x low-y corner to the opposite one where
@@ -51,11 +86,7 @@ pub const MAX_VERTICES: usize = 1 << 28;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heightfield {
     heights: Vec<f64>,
-    rows: usize,
-    cols: usize,
-    square_size: f64,
-    origin: [f64; 2],
-    edge: Edge,
+    grid: Grid,
 }
 
 impl Heightfield {
@@ -110,7 +141,7 @@ impl Heightfield {
                 );
             }
         }
-        Ok(Self { heights, rows, cols, square_size, origin, edge })
+        Ok(Self { heights, grid: Grid { rows, cols, square_size, origin, edge } })
     }
 
     /// Vertex heights, row by row, m.
@@ -119,53 +150,52 @@ impl Heightfield {
         &self.heights
     }
 
+    /// Its shape, squares, place and edge.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
     /// Vertices north.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.rows
+        self.grid.rows
     }
 
     /// Vertices east.
     #[must_use]
     pub fn cols(&self) -> usize {
-        self.cols
+        self.grid.cols
     }
 
     /// Side of a square, m.
     #[must_use]
     pub fn square_size(&self) -> f64 {
-        self.square_size
+        self.grid.square_size
     }
 
     /// Place of the first vertex, m.
     #[must_use]
     pub fn origin(&self) -> [f64; 2] {
-        self.origin
+        self.grid.origin
     }
 
     /// What lies beyond the rim.
     #[must_use]
     pub fn edge(&self) -> Edge {
-        self.edge
-    }
-
-    /// Whether two heightfields can share a pool: same shape, squares, place and edge.
-    #[must_use]
-    pub fn same_grid(&self, other: &Self) -> bool {
-        (self.rows, self.cols, self.square_size, self.origin, self.edge)
-            == (other.rows, other.cols, other.square_size, other.origin, other.edge)
+        self.grid.edge
     }
 
     /// XXH3-128 of shape, grid and heights, as 32 hexadecimal digits.
     #[must_use]
     pub fn digest(&self) -> String {
         let mut bytes = Vec::with_capacity(self.heights.len() * 8 + 64);
-        bytes.extend((self.rows as u64).to_le_bytes());
-        bytes.extend((self.cols as u64).to_le_bytes());
-        for x in [self.square_size, self.origin[0], self.origin[1]] {
+        bytes.extend((self.grid.rows as u64).to_le_bytes());
+        bytes.extend((self.grid.cols as u64).to_le_bytes());
+        for x in [self.grid.square_size, self.grid.origin[0], self.grid.origin[1]] {
             bytes.extend(x.to_le_bytes());
         }
-        bytes.extend(self.edge.name().as_bytes());
+        bytes.extend(self.grid.edge.name().as_bytes());
         self.heights.iter().for_each(|h| bytes.extend(h.to_le_bytes()));
         format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&bytes))
     }

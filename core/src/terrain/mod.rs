@@ -12,7 +12,7 @@ pub mod statistics;
 mod surface;
 mod sweep;
 
-pub use heightfield::{Edge, Heightfield};
+pub use heightfield::{Edge, Grid, Heightfield};
 pub use maps::Maps;
 pub use surface::{Ground, Surface};
 pub use sweep::Hit;

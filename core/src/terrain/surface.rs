@@ -1,6 +1,6 @@
 //! The kernel's view of a pool of maps: height and slope at a point.
 
-use super::heightfield::{Edge, Heightfield};
+use super::heightfield::{Edge, Grid};
 use crate::real::{Int, Mask, Real, Scalar, V3};
 
 /// A pool of maps in the arithmetic `T`.
@@ -84,11 +84,11 @@ impl<R: Real> Square<R> {
 }
 
 impl<'a, T: Scalar> Surface<'a, T> {
-    pub(super) fn new(heights: &'a [T], grid: &Heightfield, highest: f64) -> Self {
-        let (rows, cols) = (grid.rows() as i32, grid.cols() as i32);
-        let centre = [(cols - 1) / 2, (rows - 1) / 2];
+    pub(super) fn new(heights: &'a [T], grid: &Grid, highest: f64) -> Self {
+        let (rows, cols) = (grid.rows as i32, grid.cols as i32);
+        let centre = grid.centre_vertex().map(|i| i as i32);
         let t = T::from_f64;
-        let size = grid.square_size();
+        let size = grid.square_size;
         Self {
             heights,
             square: t(size),
@@ -96,9 +96,9 @@ impl<'a, T: Scalar> Surface<'a, T> {
             rows,
             cols,
             centre,
-            period: [t(f64::from(cols - 1) * size), t(f64::from(rows - 1) * size)],
+            period: grid.size().map(t),
             low: [t(-f64::from(centre[0]) * size), t(-f64::from(centre[1]) * size)],
-            edge: grid.edge(),
+            edge: grid.edge,
             highest: t(highest),
         }
     }

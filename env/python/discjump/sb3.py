@@ -73,6 +73,9 @@ class SkiVecEnv(VecEnv):
       needed, and `env_is_wrapped(Monitor)` says True);
     - the columns of `discjump.envs.infos`, `is_success` among them.
 
+    `reset_infos` holds the info of each episode's first observation. Where an episode began in a step it is
+    read off that observation: distance and speed are exact to float32, up to where observations are clipped.
+
     What `reset` and `step` return never changes afterwards. Rewards are float32, as stable-baselines3 keeps
     them.
 
@@ -145,16 +148,20 @@ class SkiVecEnv(VecEnv):
         step_infos: list[dict[str, Any]] = self._quiet.copy()  # type: ignore[assignment]
         rows = task.batch.finished()
         if len(rows):
-            self._note_ends(step_infos, rows, truncated[rows] & ~terminated[rows])
+            self._note_ends(step_infos, rows, truncated[rows] & ~terminated[rows], observations)
         # A copy of the rewards: the algorithm adds the value of a time-out's last state in place.
         return observations, rewards.astype(np.float32), task.over.copy(), step_infos
 
     def _note_ends(
-        self, step_infos: list[dict[str, Any]], rows: NDArray[np.int64], timed_out: NDArray[np.bool_]
+        self,
+        step_infos: list[dict[str, Any]],
+        rows: NDArray[np.int64],
+        timed_out: NDArray[np.bool_],
+        observations: NDArray[np.float32],
     ) -> None:
         batch = self._task.batch
         last, finals = infos.at_end(batch.outcomes()), batch.final_observations()
-        next_ones = {key: column[rows] for key, column in infos.now(batch.status()).items()}
+        distances, speeds = (self._read(observations[rows], name) for name in ("beacon_distance", "speed"))
         elapsed = round(time.time() - self._started, 6)
         for k, index in enumerate(rows.tolist()):
             info = infos.row(last, k)
@@ -162,11 +169,23 @@ class SkiVecEnv(VecEnv):
             info["TimeLimit.truncated"] = bool(timed_out[k])
             info["episode"] = {"r": info["return"], "l": info["length"], "t": elapsed}
             step_infos[index] = info
-            self.reset_infos[index] = infos.row(next_ones, k)
+            self.reset_infos[index] = {
+                "distance": distances[k],
+                "speed": speeds[k],
+                "time": 0.0,
+                # Starts are drawn inside it.
+                "outside_mission_area": False,
+            }
+
+    def _read(self, observations: NDArray[np.float32], name: str) -> list[float]:
+        """A field of one number in its unit, of each of the observations (k, size)."""
+        field = next(field for field in self._task.observation_layout if field.name == name)
+        values: list[float] = (observations[:, field.slice.start].astype(np.float64) * field.scale).tolist()
+        return values
 
     def snapshot(self) -> bytes:
         """Every environment in the middle of its episode, for `restore`; valid for equal options only."""
-        return self._task.batch.snapshot()
+        return self._task.snapshot()
 
     def restore(self, snapshot: bytes) -> None:
         """Put every environment back to where it was at a `snapshot`, of this object or of one like it.

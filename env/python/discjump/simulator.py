@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from discjump import _native
+from discjump import _check, _native
 from discjump._native import Terrain
 
 #: One player's keys and view in a tick: forward and strafe in -1, 0, 1; jump, jet and fire pressed or
@@ -26,6 +26,10 @@ INPUT = np.dtype(
     ],
     align=True,
 )
+
+SCENES = ("ski", "sandbox")
+ARMORS = ("light", "medium", "heavy")
+FIDELITIES = ("authentic", "reference")
 
 
 @dataclass(frozen=True)
@@ -91,10 +95,10 @@ class Simulator:
         self._native = _native.Simulator(
             terrain,
             _whole("num_players", num_players),
-            scene,
-            armor,
-            energy_pack,
-            fidelity,
+            _check.choice("scene", scene, SCENES),
+            _check.choice("armor", armor, ARMORS),
+            _check.flag("energy_pack", energy_pack),
+            _check.choice("fidelity", fidelity, FIDELITIES),
             (switches.ski_bug, switches.hysteresis),
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),

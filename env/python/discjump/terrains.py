@@ -15,7 +15,7 @@ TRAINING_SEEDS = tuple(range(16))
 
 @lru_cache(maxsize=64)
 def generated(seed: int, repeating: bool = False) -> Terrain:
-    """`Terrain.raindance(seed, repeating=repeating)`; the 64 used last are kept (0.5 MB of heights each).
+    """`Terrain.raindance(seed, repeating=repeating)`; the 64 used last are kept.
 
     >>> generated(3) is generated(3)
     True

@@ -98,13 +98,17 @@ def ski(
 
 def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool) -> None:
     # Imported late: torch takes seconds, and --help should not.
+    from discjump_training.runs import checkpoints
     from discjump_training.train import train as run
 
     try:
         result = run(recipe, seed, folder, resume=resume, quiet=quiet)
     except KeyboardInterrupt:
         click.echo(
-            f"Stopped at once. Go on from the last checkpoint: discjump train ski --resume {folder}", err=True
+            f"Stopped at once. Go on from the last checkpoint: discjump train ski --resume {folder}"
+            if checkpoints(folder)
+            else f"Stopped at once, before the first checkpoint: a run in {folder} begins anew.",
+            err=True,
         )
         sys.exit(INTERRUPTED)
     clock = result.progress.clock

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from discjump.envs.options import FAN_BEARINGS, FAN_RANGES
+from discjump.envs.options import FAN_BEARINGS, FAN_RANGES, REWARD
 from discjump_training.courses import COURSES
 from discjump_training.errors import RecipeError
 
@@ -30,9 +30,11 @@ class Section(BaseModel):
 class Reward(Section):
     """Weights of the terms of the reward."""
 
-    progress: float = Field(0.02, description="per metre by which the distance to the beacon shrank")
-    time: float = Field(-0.156, description="per second of the episode")
-    arrival: float = Field(5.0, description="once, on reaching the beacon")
+    progress: float = Field(
+        REWARD["progress"], description="per metre by which the distance to the beacon shrank"
+    )
+    time: float = Field(REWARD["time"], description="per second of the episode")
+    arrival: float = Field(REWARD["arrival"], description="once, on reaching the beacon")
 
 
 class Environment(Section):
@@ -43,11 +45,12 @@ class Environment(Section):
     frame_skip: Count = Field(4, description="ticks of 32 ms per decision")
     fan_bearings: list[float] = Field(
         list(FAN_BEARINGS),
-        description="bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan",
+        description="bearings of the fan (rise of the terrain over range, dimensionless), degrees, 0 ahead, "
+        "positive left; empty: no fan",
     )
     fan_ranges: list[float] = Field(
         list(FAN_RANGES),
-        description="ranges of the fan of terrain heights, metres; empty: no fan",
+        description="ranges of the fan, metres; empty: no fan",
     )
     landing: bool = Field(True, description="observe features of the ballistic landing")
     reward: Reward = Field(Reward(), description="weights of the terms of the reward")

@@ -10,6 +10,7 @@ tensorboard/    for `tensorboard --logdir`
 """
 
 import csv
+import fnmatch
 import io
 import json
 import os
@@ -22,6 +23,17 @@ from typing import Any
 from discjump_training import model
 from discjump_training.errors import TrainingError
 from discjump_training.recipe import Recipe
+
+#: Files that a run may leave behind before its first checkpoint, and the folders they are in.
+BEGINNINGS = (
+    "recipe.toml",
+    "curve.csv",
+    "best.zip",
+    ".*.part",
+    "checkpoints/.*.part",
+    "tensorboard/events.out.tfevents.*",
+)
+FOLDERS = ("checkpoints", "tensorboard")
 
 
 @dataclass
@@ -76,14 +88,33 @@ class Progress:
 
 
 def check_is_free(folder: Path) -> None:
-    """Refuse a folder that is not empty.
+    """Refuse a folder that holds anything but what a run leaves behind that broke off before its first
+    checkpoint: nobody can go on from there, so another may begin.
 
     Raises:
-        TrainingError: if it holds something already.
+        TrainingError: if it holds something else, or is no folder.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+    if folder.exists() and (not folder.is_dir() or not _only_begun(folder)):
         hint = f"go on with --resume {folder}, or " if checkpoints(folder) else ""
         raise TrainingError(f"{folder} exists and is not an empty folder: {hint}choose another --out")
+
+
+def clear(folder: Path) -> None:
+    """Remove what `check_is_free` lets pass."""
+    check_is_free(folder)
+    if folder.exists():
+        for path in sorted(folder.rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() else path.unlink()
+
+
+def _only_begun(folder: Path) -> bool:
+    for path in folder.rglob("*"):
+        name = path.relative_to(folder).as_posix()
+        if path.is_symlink() or (path.is_dir() and name not in FOLDERS):
+            return False
+        if not path.is_dir() and not any(fnmatch.fnmatchcase(name, known) for known in BEGINNINGS):
+            return False
+    return True
 
 
 def checkpoints(folder: Path) -> list[Path]:

@@ -75,7 +75,8 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
     Args:
         recipe: what to do. When resuming, the caller passes the recipe of the run.
         seed: 0 to `courses.MAX_RUN_SEED`; runs of different seeds share no episode. Ignored when resuming.
-        folder: must hold no run, unless resuming.
+        folder: must hold no run, unless resuming; what one left that broke off before its first checkpoint is
+            removed.
         resume: go on from the newest checkpoint in `folder`.
         quiet: no progress bar.
 
@@ -96,6 +97,8 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
 
     env = TimedVecEnv(make_env(recipe, progress.seed))
     try:
+        if checkpoint is None:
+            runs.clear(folder)
         (folder / "checkpoints").mkdir(parents=True, exist_ok=True)
         learner = (
             make_model(recipe, env, progress.seed)
@@ -217,8 +220,9 @@ class Watcher(BaseCallback):
 
     def _on_rollout_start(self) -> None:
         if self.model.num_timesteps > self.steps:
-            self._after_update()
+            # Read once: a Ctrl-C after this waits for the next update, or no checkpoint would be written.
             self._break_off = self.stop
+            self._after_update()
         self._mark, self._environment_mark = time.perf_counter(), self.env.seconds
 
     def _on_step(self) -> bool:
@@ -247,7 +251,8 @@ class Watcher(BaseCallback):
         self.bar.set_postfix(success=f"{np.mean(successes):.0%}" if successes else "-", refresh=False)
         if self.finished or self.steps - self.progress.evaluated_at >= watch.evaluate_every:
             self._evaluate()
-        if self.finished or self.stop or self.steps - self.progress.checkpointed_at >= watch.checkpoint_every:
+        due = self.steps - self.progress.checkpointed_at >= watch.checkpoint_every
+        if self.finished or self._break_off or due:
             self._checkpoint()
 
     def _evaluate(self) -> None:
@@ -285,13 +290,15 @@ class Watcher(BaseCallback):
                 "numpy": _numpy_state(),
             },
         }
+        # The final model comes before the final checkpoint: killed in between, the run goes on from the
+        # checkpoint before and ends again, while one with all its decisions done could not be resumed.
+        if self.finished:
+            model.save(self._ppo, self.folder / "final.zip", self._about())
         snapshot = self.env.inner.snapshot()
         store = self.folder / "checkpoints"
         model.save(self._ppo, store / f"{self.steps:012d}.zip", about, {ENVIRONMENT_ENTRY: snapshot})
         for old in runs.checkpoints(self.folder)[: -self.recipe.watch.keep_checkpoints]:
             old.unlink()
-        if self.finished:
-            model.save(self._ppo, self.folder / "final.zip", self._about())
         runs.write_run(self.folder, self.recipe, self.progress, self.steps)
 
     def _about(self) -> dict[str, Any]:

@@ -1,8 +1,7 @@
 """Tunes a scripted baseline on the training course: `python -m discjump_training.tune skier`.
 
 Differential evolution over all parameters of the script, started from a Sobol sequence. The search is
-seeded and the episodes are fixed, so the same command gives the same constants. What it prints is what
-stands in `baselines/tuned.toml`.
+seeded and the episodes are fixed, so the same command gives the same constants on the same simulator.
 """
 
 import sys
@@ -29,12 +28,12 @@ def seconds(stage: Stage, name: str, values: Any) -> float:
 def search(
     name: str, *, generations: int, population: int, episodes: int, seed: int, threads: int | None
 ) -> SkierParameters:
-    """The best parameters found.
+    """The best parameters found, rounded to the digits that are printed.
 
     Args:
         name: `skier` or `tacker`.
         generations: of the evolution after the first.
-        population: candidates per generation, rounded up to a power of two at the start.
+        population: candidates per generation; at the start as many points of a Sobol sequence.
         episodes: of the training course that each candidate plays.
         seed: of the search.
         threads: of the simulator.
@@ -67,7 +66,7 @@ def search(
             polish=False,
             rng=rng,
         )
-    return kind(*map(float, found.x))
+    return baselines.rounded(kind(*map(float, found.x)))
 
 
 def _sobol(limits: Any, count: int, rng: np.random.Generator) -> Any:

@@ -1,15 +1,15 @@
 //! A batch of ski episodes: reset, step, observe, reward, autoreset, block by block.
 
 use super::codec::{read_player, write_player};
-use super::float_environment::DefaultFloats;
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
 use super::simulator::find_armor;
 use super::snapshot;
 use crate::error::{InputError, refuse};
+use crate::float_environment::DefaultFloats;
 use crate::input::Input;
 use crate::movement::Movement;
 use crate::observe::LayoutField;
-use crate::player::{Field, Player, fields, local};
+use crate::player::{Field, Player, fields, local, packed_bytes};
 use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
@@ -45,6 +45,8 @@ struct Batch<S: Scene, M: Movement, R: Real> {
     final_observations: Vec<f32>,
     row: usize,
     threads: usize,
+    /// Whether a step panicked half-way: better no bits than wrong ones.
+    broken: bool,
     layout: String,
     movement: core::marker::PhantomData<M>,
 }
@@ -86,13 +88,14 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             final_observations: Vec::new(),
             row,
             threads,
+            broken: false,
             layout,
             setup,
             movement: core::marker::PhantomData,
         }))
     }
 
-    /// Runs `work` over pieces of the batch: on the pool, or here where waking it costs more.
+    /// Whether to step on the caller's thread: waking the pool costs more for few players.
     fn inline(&self) -> bool {
         self.threads == 1 || self.setup.count < INLINE_BELOW
     }
@@ -131,8 +134,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     fn body_stride(&self) -> usize {
-        let player = fields::<S, R::Scalar>(true).iter().map(|f| f.kind.bytes() * f.count).sum::<usize>();
-        player + episode::BYTES
+        packed_bytes(&fields::<S, R::Scalar>(true)) + episode::BYTES
     }
 }
 
@@ -248,6 +250,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         }
         self.finished.clear();
         self.final_observations.clear();
+        self.broken = false;
         Ok(())
     }
 

@@ -116,9 +116,9 @@ impl SkiEnvironments {
                 "areas[{k}]: expected min <= max, and beacons within 1e9 m and 1e9 tiles of the map, got {area:?}"
             );
         }
-        let low = DVec2::from(self.maps.grid().origin());
+        let low = DVec2::from(self.maps.grid().origin);
         let high = low + self.maps.size();
-        if self.maps.grid().edge() == Edge::Void && !(low.cmple(min).all() && max.cmple(high).all()) {
+        if self.maps.grid().edge == Edge::Void && !(low.cmple(min).all() && max.cmple(high).all()) {
             refuse!("areas[{k}]: on edge \"void\" expected within {low} to {high}, got {area:?}");
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! One decision of a batch: ticks, rewards, ends, autoreset and observations in one pass over a block.
 
 use super::*;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// A piece of the outputs that belongs to one piece of the batch.
 struct Piece<'a, S: Scene, R: Real> {
@@ -49,10 +50,9 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         Ok(())
     }
 
-    /// A step that panicked took the blocks with it: better no bits than wrong ones.
     fn check_whole(&self) -> Result<(), InputError> {
-        if self.blocks.is_empty() {
-            refuse!("an earlier step of this batch failed; make a new one");
+        if self.broken {
+            refuse!("an earlier step of this batch failed: restore a snapshot, or make a new batch");
         }
         Ok(())
     }
@@ -69,7 +69,8 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         if output.observations.len() != n * self.row || sizes != [n; 3] {
             refuse!("output: expected {n} rows of {} and {n} of the rest", self.row);
         }
-        if self.lanes().any(|(_, _, e)| e.phase == Phase::Unseeded) {
+        let mut episodes = self.blocks.iter().flat_map(|b| b.episodes.as_ref()).take(n);
+        if episodes.any(|e| e.phase == Phase::Unseeded) {
             refuse!("step: expected every environment to have been reset before its first step");
         }
         Ok(())
@@ -99,7 +100,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let per_task = if inline { blocks.len() } else { CHUNK.div_ceil(R::LANES) };
         let rows = per_task * R::LANES;
         let this = &*self;
-        let ended: Vec<Ended> = match pool {
+        let stepped = catch_unwind(AssertUnwindSafe(|| match pool {
             None => {
                 let StepOutput { observations, rewards, terminated, truncated } = output;
                 let piece =
@@ -121,10 +122,14 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
                             actions,
                         )
                     })
-                    .collect()
+                    .collect::<Vec<Ended>>()
             }),
-        };
+        }));
         self.blocks = blocks;
+        let ended = stepped.unwrap_or_else(|panic| {
+            self.broken = true;
+            resume_unwind(panic)
+        });
         self.finished.clear();
         self.final_observations.clear();
         for piece in ended {

@@ -47,6 +47,7 @@ mod spectrum;
 use super::mission::{Area, Bridge, Mission};
 use super::statistics::grid::{Grid, SIDE, SQUARE};
 use super::statistics::{check, check_mission};
+use crate::float_environment::DefaultFloats;
 use draws::Draws;
 use sites::Site;
 use std::fmt;
@@ -115,6 +116,7 @@ impl std::error::Error for Error {}
 /// # Errors
 /// [`Error::Exhausted`] if every draw misses a window. Of the seeds tried so far none comes near.
 pub fn generate(seed: u64, options: Options) -> Result<Generated, Error> {
+    let _floats = DefaultFloats::enter();
     let mut missed = "every draw";
     for attempt in 0..MAX_DRAWS {
         match draw(Draws { seed, attempt }, options) {

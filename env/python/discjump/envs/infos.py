@@ -16,7 +16,7 @@ and when an episode ends
 | length | decisions | |
 | top_speed, mean_speed | m/s | |
 | path | m | length of the path |
-| damage | | at the end, 1 is dead |
+| damage | damage | at the end; light armor dies at 0.66, medium at 1.0, heavy at 1.32 |
 | start_distance | m | horizontal distance to the beacon at the start |
 """
 

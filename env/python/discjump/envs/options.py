@@ -9,18 +9,20 @@ from numpy.typing import NDArray
 
 from discjump import _check
 from discjump._native import SkiBatch, Terrain
-from discjump.simulator import Physics
+from discjump.simulator import ARMORS, FIDELITIES, Physics
 from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
 
 REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
 """Default weights: per metre nearer to the beacon, per second, once on arrival."""
 
 FAN_BEARINGS = (0.0, 30.0, -30.0)
-"""Default bearings of the fan of terrain heights, degrees, 0 ahead, positive left: chosen by what learns
-best (README, Results)."""
+"""Default bearings of the fan, degrees, 0 ahead, positive left: chosen by what learns best (README, Results).
+
+The fan is the rise of the terrain over range: its height there, over the ground below the player, divided by
+the range (dimensionless)."""
 
 FAN_RANGES = (10.0, 25.0, 50.0, 90.0)
-"""Default ranges of the fan of terrain heights, m."""
+"""Default ranges of the fan, m."""
 
 ACTIONS = ("multi_discrete", "box")
 
@@ -41,7 +43,7 @@ class SkiOptions:
     """
 
     terrain_seeds: Sequence[int] = TRAINING_SEEDS
-    """Seeds of the generated terrains that episodes draw from; 16 by default, 0.5 MB of heights each."""
+    """Seeds of the generated terrains that episodes draw from; 16 by default."""
 
     repeating: bool = False
     """Generated terrains repeat a cell of 512 m instead of 2,048 m."""
@@ -89,11 +91,12 @@ class SkiOptions:
     """Weights that differ from `REWARD`: `progress` (per m), `time` (per s), `arrival`."""
 
     fan_bearings: Sequence[float] | NDArray[np.float64] = FAN_BEARINGS
-    """Bearings of the fan of terrain heights, degrees, 0 ahead, positive left; empty: no fan.
+    """Bearings of the fan (rise of the terrain over range, dimensionless), degrees, 0 ahead, positive left;
+    empty: no fan.
     """
 
     fan_ranges: Sequence[float] | NDArray[np.float64] = FAN_RANGES
-    """Ranges of the fan of terrain heights, m; empty: no fan."""
+    """Ranges of the fan, m; empty: no fan."""
 
     landing: bool = True
     """Observe features of the ballistic landing."""
@@ -109,6 +112,8 @@ class SkiOptions:
             raise TypeError(f"physics: expected a discjump.Physics, got {self.physics!r}")
         put(self, "frame_skip", _check.integer("frame_skip", self.frame_skip, 1, 64))
         put(self, "tick_ms", _check.integer("tick_ms", self.tick_ms, 1, 1000))
+        _check.choice("fidelity", self.fidelity, FIDELITIES)
+        _check.choice("armor", self.armor, ARMORS)
         _check.choice("actions", self.actions, ACTIONS)
         put(self, "turn_rate", _check.real("turn_rate", self.turn_rate, 0, 100, "rad/s", open_low=True))
         put(self, "time_limit", _check.real("time_limit", self.time_limit, 0, 3600, "s", open_low=True))
@@ -154,10 +159,10 @@ class SkiOptions:
         Args:
             num_envs: at least 1.
             autoreset: `next_step`, `same_step` or `disabled`.
-            threads: threads that step the batch, at least 1; None: one per core.
+            threads: threads that step the batch, 1 to 256; None: one per core.
         """
         if threads is not None:
-            threads = _check.integer("threads", threads, 1, 1024)
+            threads = _check.integer("threads", threads, 1, 256)
         return SkiBatch(
             self.pool(),
             _check.integer("num_envs", num_envs, 1, 2**24),
@@ -210,7 +215,7 @@ def _goal_distance(span: object) -> tuple[float, float]:
     ends = _check.sequence("goal_distance", span, "two numbers in m")
     if len(ends) != 2:
         raise ValueError(f"goal_distance: expected two numbers in m, got {len(ends)}")
-    low, high = (_check.real(f"goal_distance[{i}]", end, 0, 1e5, "m") for i, end in enumerate(ends))
+    low, high = (_check.real(f"goal_distance[{i}]", end, 0, 1e6, "m") for i, end in enumerate(ends))
     if low > high:
         raise ValueError(f"goal_distance: expected least <= largest, got ({low:g}, {high:g})")
     return low, high

@@ -1,5 +1,6 @@
 """What the three front ends (single, vector, stable-baselines3) share: the batch, its spaces, its seeds."""
 
+import zlib
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -137,11 +138,31 @@ class SkiTask:
         self.over = ended
         return result
 
+    def snapshot(self) -> bytes:
+        """The batch, a byte per environment (1: was reset once, 2: its episode is over) and their CRC-32."""
+        flags = (self._seeded + 2 * self.over).astype(np.uint8).tobytes()
+        return self.batch.snapshot() + flags + zlib.crc32(flags).to_bytes(4, "little")
+
     def restore(self, snapshot: bytes) -> None:
-        """Put the batch back to a snapshot of itself, or of one with the same options."""
-        self.batch.restore(snapshot)
-        self.over[:] = False
-        self._seeded[:] = True
+        """Put the batch back to a snapshot of itself, or of one with the same options.
+
+        Raises:
+            TypeError: `snapshot` is no bytes.
+            ValueError: it is damaged or belongs to other options or another number of environments; nothing
+                has changed then.
+        """
+        if not isinstance(snapshot, bytes):
+            raise TypeError(f"snapshot: expected bytes, got {type(snapshot).__name__}")
+        end = max(len(snapshot) - self.num_envs - 4, 0)
+        batch, flags, checksum = snapshot[:end], snapshot[end:-4], snapshot[-4:]
+        if zlib.crc32(flags) != int.from_bytes(checksum, "little"):
+            raise ValueError(
+                f"snapshot: expected the bytes of a snapshot of {self.num_envs} environments, got "
+                f"{len(snapshot)} bytes whose checksum does not match"
+            )
+        self.batch.restore(batch)
+        status = np.frombuffer(flags, np.uint8)
+        self._seeded, self.over = (status & 1).astype(np.bool_), (status & 2).astype(np.bool_)
         if self._camera is not None:
             self._camera.restart(np.ones(self.num_envs, np.bool_))
 

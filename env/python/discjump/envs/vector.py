@@ -184,8 +184,6 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
                 "final_info": infos.masked(last, ended),
                 "_final_info": ended,
             }
-        for key in infos.STEP:
-            columns[key][rows] = last[key][rows]
         return infos.masked(columns, everyone) | infos.masked({key: last[key] for key in infos.END}, ended)
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:

@@ -22,7 +22,7 @@ from discjump_training.policy import BINS, Actions, Mask, Observations, Policy
 PARAMETERS: dict[str, type[SkierParameters]] = {"skier": SkierParameters, "tacker": TackerParameters}
 NAMES = ("random", *PARAMETERS)
 
-#: Ranges of the terrain heights that the scripts look at, straight ahead, metres.
+#: Ranges of the fan that the scripts look at, straight ahead, metres.
 RANGES = (6.0, 16.0, 35.0, 70.0, 120.0)
 #: Options of `discjump/Ski-v0` that make the observations the scripts need and no more.
 OPTIONS: dict[str, Any] = {"fan_bearings": [0.0], "fan_ranges": list(RANGES), "landing": False}
@@ -70,6 +70,11 @@ def tuned(name: str) -> SkierParameters:
     """The committed constants of a script."""
     text = resources.files(__name__).joinpath("tuned.toml").read_text(encoding="utf-8")
     return PARAMETERS[name](**tomllib.loads(text)[name]["parameters"])
+
+
+def rounded(parameters: SkierParameters) -> SkierParameters:
+    """Parameters as `to_toml` prints them, with four digits."""
+    return type(parameters)(**tomllib.loads(to_toml(parameters)))
 
 
 def to_toml(parameters: SkierParameters) -> str:

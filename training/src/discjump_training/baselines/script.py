@@ -69,7 +69,7 @@ class Script:
         name: name in tables.
         parameters: tuned constants.
         layout: of the observations it will read.
-        ranges: of the terrain heights straight ahead in them, metres.
+        ranges: of the fan (rise of the terrain over range) straight ahead in them, metres.
         turn_rate: largest turn of the action space, rad/s.
     """
 

@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 
+from discjump_training.errors import TrainingError
 from discjump_training.policy import Floats, Layout, Observations
 
 
@@ -65,7 +66,12 @@ class Sight:
     def rise(self, distance: float) -> Floats:
         """Terrain `distance` metres straight ahead minus feet, interpolated between the fan's samples,
         metres.
+
+        Raises:
+            TrainingError: if the observations have no fan.
         """
+        if not self.ahead.shape[1]:
+            raise TrainingError("the observation has no part 'fan': nothing is seen of the terrain ahead")
         right = int(np.clip(np.searchsorted(self.ranges, distance), 1, self.ranges.size - 1))
         near, far = self.ranges[right - 1], self.ranges[right]
         share = np.clip((distance - near) / (far - near), 0.0, 1.0)

@@ -1,10 +1,11 @@
 //! The floating-point environment of the thread that steps: round to nearest, nothing flushed to zero.
 //!
 //! A library may have changed it on the caller's thread (torch can flush denormals) but not on the
-//! pool's, and then the bits would depend on which thread stepped a player.
+//! pool's, and then the bits would depend on which thread stepped a player. Guarded on x86-64; on other
+//! processors nothing is set, and a caller who changed the environment gets other bits.
 
 /// Holds the default environment until dropped.
-pub(super) struct DefaultFloats {
+pub(crate) struct DefaultFloats {
     #[cfg(target_arch = "x86_64")]
     before: u32,
 }
@@ -15,7 +16,7 @@ const MXCSR_DEFAULT: u32 = 0x1f80;
 
 impl DefaultFloats {
     /// Sets the default environment on this thread.
-    pub(super) fn enter() -> Self {
+    pub(crate) fn enter() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
             let mut before = 0u32;
