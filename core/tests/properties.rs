@@ -46,7 +46,7 @@ fn check_invariants<T: Scalar>(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn every_tick_leaves_a_possible_player(seed in 0..1000u64, start in start(), keys in keys()) {

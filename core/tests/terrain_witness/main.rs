@@ -21,7 +21,7 @@ use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{Ray, RayCast, ShapeCastOptions, cast_shapes};
 use parry3d_f64::shape::Ball;
 use queries::{Queries, vector};
-use worlds::{World, worlds};
+use worlds::{WORLDS, World};
 
 /// Queries of each kind, over all worlds.
 const QUERIES: usize = 100_000;
@@ -35,9 +35,8 @@ fn rounding<T: Scalar>(world: &World) -> f64 {
 
 /// Asks `query` its share of the queries on every world.
 fn everywhere<T: Scalar>(mut query: impl FnMut(&World, &Mesh, &mut Queries<'_, T>)) {
-    let worlds = worlds();
-    let shares: usize = worlds.iter().map(|w| w.share).sum();
-    for (k, world) in worlds.iter().enumerate() {
+    let shares: usize = WORLDS.iter().map(|w| w.share).sum();
+    for (k, world) in WORLDS.iter().enumerate() {
         let maps = Maps::new(core::slice::from_ref(&world.field)).unwrap();
         let mesh = Mesh::new::<T>(&world.field);
         let mut queries = Queries::new(&world.field, maps.surface::<T>(), k as u64);
@@ -108,7 +107,7 @@ fn heights_and_normals_agree_in_f32() {
 /// square (docs/physics.md, section 8). Exact, so the mesh's own order of triangles is the witness.
 #[test]
 fn ties_belong_to_the_upper_triangle() {
-    for world in worlds().into_iter().filter(|w| w.field.square_size() == 8.0) {
+    for world in WORLDS.iter().filter(|w| w.field.square_size() == 8.0) {
         let maps = Maps::new(core::slice::from_ref(&world.field)).unwrap();
         let surface = maps.surface::<f64>();
         let mesh = Mesh::new::<f64>(&world.field);
@@ -232,7 +231,7 @@ fn rays_from_above_agree_in_f32() {
 /// A path that starts below the surface: the rule of section 5, by brute force alone, since parry's
 /// triangles have two sides.
 fn from_below<T: Scalar>() {
-    let (mut asked, mut hits, mut entries) = (0, 0, 0);
+    let (mut asked, mut hits, mut entries, mut differences) = (0, 0, 0, 0);
     everywhere::<T>(|world, mesh, queries| {
         let eps = rounding::<T>(world);
         let depth = world.field.square_size() * (0.001 + queries.unit().powi(3));
@@ -245,12 +244,21 @@ fn from_below<T: Scalar>() {
             entries += usize::from(hit.fraction == 0.0);
             check_normal::<T>(mesh, start, path, hit, eps);
         }
+        let plain = first_contact(mesh.near(start, path), start, path, 0.0, 0.0);
+        if same_hit(ours, plain, path, eps) {
+            return;
+        }
+        differences += 1;
         let right = answers(mesh, start, path, eps);
         let agree = right.iter().any(|r| same_hit(ours, *r, path, eps));
         assert!(agree, "{}: {start:?} {path:?}: ours {ours:?}, right {:?}", world.name, right[0]);
     });
-    println!("from below, double {}: {asked} cast, {hits} hits, {entries} at the start", T::DOUBLE);
+    println!(
+        "from below, double {}: {asked} cast, {hits} hits, {entries} at the start, {differences} by rounding",
+        T::DOUBLE
+    );
     assert!(asked >= QUERIES && entries > 0 && entries < hits && hits < asked);
+    assert!(differences * 30 <= asked, "{differences} of {asked} decided by rounding");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use discjump_core::random::{Purpose, uniform};
 use discjump_core::terrain::{Edge, Heightfield, raindance};
+use std::sync::LazyLock;
 
 /// A terrain, and what share of the queries it gets.
 pub struct World {
@@ -38,7 +39,10 @@ fn raindance() -> Heightfield {
 /// Slopes up to 70 degrees: neighbours differ by at most `8 tan 70 / sqrt 2` metres.
 const STEEP: f64 = 15.5;
 
-pub fn worlds() -> Vec<World> {
+/// All of them, made once: the generator takes its time.
+pub static WORLDS: LazyLock<Vec<World>> = LazyLock::new(worlds);
+
+fn worlds() -> Vec<World> {
     let world = |name, share, field| World { name, field, share };
     vec![
         world("rolling", 6, rolling()),
