@@ -2,11 +2,12 @@
 
 use super::codec::{read_player, write_player};
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
+use super::raw_input::RawInput;
 use super::snapshot;
 use crate::armor::Armor;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
-use crate::input::{Input, MAX_TURN_RATE};
+use crate::input::Input;
 use crate::movement::{Movement, Sliced};
 use crate::player::{Field, OLDEST_MS, Player, fields, local, packed_bytes};
 use crate::real::{Int, Real, Scalar, V3};
@@ -22,64 +23,6 @@ pub const MAX_PLAYERS: usize = 1 << 24;
 pub const MAX_SPEED: f64 = 1e6;
 /// Players stepped together by one task of the pool.
 const CHUNK: usize = 64;
-
-/// One player's keys as they cross the border: the layout of `discjump.INPUT`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(C)]
-pub struct RawInput {
-    /// -1, 0 or 1.
-    pub forward: i8,
-    /// -1, 0 or 1.
-    pub strafe: i8,
-    /// 0 or 1.
-    pub jump: u8,
-    /// 0 or 1.
-    pub jet: u8,
-    /// 0 or 1.
-    pub fire: u8,
-    /// Turn rate, rad/s, positive to the left.
-    pub turn: f64,
-    /// Pitch, radians, up positive.
-    pub pitch: f64,
-}
-
-impl RawInput {
-    /// Checks the ranges of one player's keys.
-    ///
-    /// # Errors
-    /// Names the field, the range and the value.
-    pub fn check(&self, player: usize) -> Result<(), InputError> {
-        for (name, value) in [("forward", self.forward), ("strafe", self.strafe)] {
-            if !(-1..=1).contains(&value) {
-                refuse!("inputs[{player}].{name}: expected -1, 0 or 1, got {value}");
-            }
-        }
-        for (name, value) in [("jump", self.jump), ("jet", self.jet), ("fire", self.fire)] {
-            if value > 1 {
-                refuse!("inputs[{player}].{name}: expected a bool, got the byte {value}");
-            }
-        }
-        if self.turn.is_nan() || self.turn.abs() > MAX_TURN_RATE {
-            refuse!("inputs[{player}].turn: expected within +-{MAX_TURN_RATE} rad/s, got {}", self.turn);
-        }
-        if !self.pitch.is_finite() {
-            refuse!("inputs[{player}].pitch: expected a finite angle in radians, got {}", self.pitch);
-        }
-        Ok(())
-    }
-
-    fn to_input<T: Scalar>(self) -> Input<T> {
-        Input {
-            forward: T::from_f64(f64::from(self.forward)),
-            strafe: T::from_f64(f64::from(self.strafe)),
-            jump: self.jump != 0,
-            jet: self.jet != 0,
-            fire: self.fire != 0,
-            turn: T::from_f64(self.turn),
-            pitch: T::from_f64(self.pitch),
-        }
-    }
-}
 
 /// What every batch of bodies can do, whatever its scene and tier.
 pub trait Bodies: Send + Sync {

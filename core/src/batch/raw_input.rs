@@ -1,0 +1,63 @@
+//! Keys as they come from outside: checked, then turned into the kernel's input.
+
+use crate::error::{InputError, refuse};
+use crate::input::{Input, MAX_TURN_RATE};
+use crate::real::Scalar;
+
+/// One player's keys as they cross the border: the layout of `discjump.INPUT`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct RawInput {
+    /// -1, 0 or 1.
+    pub forward: i8,
+    /// -1, 0 or 1.
+    pub strafe: i8,
+    /// 0 or 1.
+    pub jump: u8,
+    /// 0 or 1.
+    pub jet: u8,
+    /// 0 or 1.
+    pub fire: u8,
+    /// Turn rate, rad/s, positive to the left.
+    pub turn: f64,
+    /// Pitch, radians, up positive.
+    pub pitch: f64,
+}
+
+impl RawInput {
+    /// Checks the ranges of one player's keys.
+    ///
+    /// # Errors
+    /// Names the field, the range and the value.
+    pub fn check(&self, player: usize) -> Result<(), InputError> {
+        for (name, value) in [("forward", self.forward), ("strafe", self.strafe)] {
+            if !(-1..=1).contains(&value) {
+                refuse!("inputs[{player}].{name}: expected -1, 0 or 1, got {value}");
+            }
+        }
+        for (name, value) in [("jump", self.jump), ("jet", self.jet), ("fire", self.fire)] {
+            if value > 1 {
+                refuse!("inputs[{player}].{name}: expected a bool, got the byte {value}");
+            }
+        }
+        if self.turn.is_nan() || self.turn.abs() > MAX_TURN_RATE {
+            refuse!("inputs[{player}].turn: expected within +-{MAX_TURN_RATE} rad/s, got {}", self.turn);
+        }
+        if !self.pitch.is_finite() {
+            refuse!("inputs[{player}].pitch: expected a finite angle in radians, got {}", self.pitch);
+        }
+        Ok(())
+    }
+
+    pub(super) fn to_input<T: Scalar>(self) -> Input<T> {
+        Input {
+            forward: T::from_f64(f64::from(self.forward)),
+            strafe: T::from_f64(f64::from(self.strafe)),
+            jump: self.jump != 0,
+            jet: self.jet != 0,
+            fire: self.fire != 0,
+            turn: T::from_f64(self.turn),
+            pitch: T::from_f64(self.pitch),
+        }
+    }
+}
