@@ -80,19 +80,24 @@ fn full_burn_lasts_109_ticks_and_lifts_49_6_m() {
     }
 }
 
+/// High above the ground with the jet key held, once the rhythm of an empty tank has set in.
+fn ticks_burned_of_250_on_an_empty_tank(w: &mut World) -> f64 {
+    w.set(&[("position", &[0.0, 0.0, 5000.0]), ("energy", &[0.0])]);
+    (0..100).for_each(|_| w.step(JET));
+    (0..250)
+        .map(|_| {
+            w.step(JET);
+            w.get("jetting")[0]
+        })
+        .sum()
+}
+
 #[test]
 fn holding_jets_on_an_empty_tank_burns_8_ticks_of_25() {
     for tier in TIERS {
         let flat = slope(0.0);
         let mut w = world(&flat, tier);
-        w.set(&[("position", &[0.0, 0.0, 5000.0]), ("energy", &[0.0])]);
-        (0..100).for_each(|_| w.step(JET));
-        let burned: f64 = (0..250)
-            .map(|_| {
-                w.step(JET);
-                w.get("jetting")[0]
-            })
-            .sum();
+        let burned = ticks_burned_of_250_on_an_empty_tank(&mut w);
         near("ticks of 250", burned, 80.0, 1.0);
     }
 }
@@ -103,14 +108,7 @@ fn without_hysteresis_the_empty_tank_burns_every_other_tick() {
     let mut s = setup(&flat, "reference");
     s.physics.hysteresis = false;
     let mut w = World { sim: s.build().unwrap() };
-    w.set(&[("position", &[0.0, 0.0, 5000.0]), ("energy", &[0.0])]);
-    (0..100).for_each(|_| w.step(JET));
-    let burned: f64 = (0..250)
-        .map(|_| {
-            w.step(JET);
-            w.get("jetting")[0]
-        })
-        .sum();
+    let burned = ticks_burned_of_250_on_an_empty_tank(&mut w);
     assert_eq!(burned, 125.0);
 }
 

@@ -3,6 +3,8 @@
 use crate::player::{FieldVisitor, Player, visit};
 use crate::real::Scalar;
 use crate::scene::Scene;
+use crate::terrain::Maps;
+use glam::{DVec3, IVec2};
 
 struct Writer<'a>(&'a mut Vec<u8>);
 
@@ -59,6 +61,18 @@ impl<T: Scalar> FieldVisitor<T> for Reader<'_> {
 /// Appends a player's fields; see [`visit`] for `place`.
 pub(super) fn write_player<S: Scene, T: Scalar>(p: &Player<S, T>, place: bool, out: &mut Vec<u8>) {
     visit(&mut p.clone(), &mut Writer(out), place);
+}
+
+/// World position of a player, m.
+pub(super) fn place<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>) -> DVec3 {
+    let local = DVec3::new(p.position.x.to_f64(), p.position.y.to_f64(), p.position.z.to_f64());
+    maps.to_world(local, IVec2::new(p.tile_x, p.tile_y))
+}
+
+/// Appends a player's public state: his world position (three f64), then his other fields.
+pub(super) fn write_state<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, out: &mut Vec<u8>) {
+    place(maps, p).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
+    write_player(p, false, out);
 }
 
 /// Reads a player's fields over `p`.

@@ -1,6 +1,6 @@
 //! A batch of players and nothing else: state in, ticks, state out.
 
-use super::codec::{read_player, write_player};
+use super::codec::{read_player, write_player, write_state};
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
 use super::raw_input::RawInput;
 use super::snapshot;
@@ -9,12 +9,12 @@ use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
 use crate::input::Input;
 use crate::movement::{Movement, Sliced};
-use crate::player::{Field, OLDEST_MS, Player, fields, local, packed_bytes};
+use crate::player::{Field, OLDEST_MS, Player, fields, packed_bytes};
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules};
 use crate::scene::{Group, Sandbox, Scene, Ski};
 use crate::terrain::{Heightfield, Maps};
-use glam::{DVec3, IVec2};
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Most players of one batch.
@@ -209,10 +209,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
     fn state(&self) -> Vec<u8> {
         let mut out = Vec::with_capacity(self.count * self.state_bytes());
         for i in 0..self.count {
-            let p = self.player(i);
-            let world = self.maps.to_world(local(&p), IVec2::new(p.tile_x, p.tile_y));
-            world.to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
-            write_player(&p, false, &mut out);
+            write_state(&self.maps, &self.player(i), &mut out);
         }
         out
     }

@@ -5,7 +5,7 @@ mod fields;
 pub use fields::{Field, FieldKind, FieldVisitor, fields, packed_bytes, visit};
 
 use crate::armor::JUMP_GRACE_MS;
-use crate::real::{Int, Mask, Real, Scalar, V3};
+use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 
@@ -155,10 +155,4 @@ impl<S: Scene, R: Real> Player<S, R> {
     pub fn contact(&self) -> Contact<R> {
         self.contact.get(Contact { normal: V3::up(), age: R::Int::splat(JUMP_GRACE_MS) })
     }
-}
-
-/// Local coordinates of a player as a plain point, exact.
-#[must_use]
-pub fn local<S: Scene, T: Scalar>(player: &Player<S, T>) -> glam::DVec3 {
-    glam::DVec3::new(player.position.x.to_f64(), player.position.y.to_f64(), player.position.z.to_f64())
 }

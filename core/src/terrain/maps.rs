@@ -5,6 +5,7 @@ use super::surface::Surface;
 use crate::error::InputError;
 use crate::real::Scalar;
 use glam::{DVec2, DVec3, IVec2};
+use xxhash_rust::xxh3::Xxh3;
 
 /// Farthest tile from the first one that a position may lie in.
 pub const MAX_TILE: f64 = 1e9;
@@ -24,6 +25,7 @@ pub struct Maps {
     heights32: Vec<f32>,
     ranges: Vec<(f64, f64)>,
     highest: f64,
+    digest: u128,
 }
 
 impl Maps {
@@ -56,7 +58,12 @@ impl Maps {
             .map(|t| t.heights().iter().fold((f64::MAX, f64::MIN), |(l, h), &z| (l.min(z), h.max(z))))
             .collect();
         let highest = ranges.iter().fold(f64::MIN, |m, r| m.max(r.1));
-        Ok(Self { grid: *grid, heights64, heights32, ranges, highest })
+        let mut digest = Xxh3::new();
+        digest.update(format!("{grid:?}").as_bytes());
+        for row in heights64.chunks(grid.cols) {
+            digest.update(&row.iter().flat_map(|h| h.to_le_bytes()).collect::<Vec<u8>>());
+        }
+        Ok(Self { grid: *grid, heights64, heights32, ranges, highest, digest: digest.digest128() })
     }
 
     /// How many maps there are.
@@ -98,9 +105,7 @@ impl Maps {
     /// XXH3-128 of grid and heights.
     #[must_use]
     pub fn digest(&self) -> u128 {
-        let mut bytes: Vec<u8> = format!("{:?}", self.grid).into_bytes();
-        self.heights64.iter().for_each(|h| bytes.extend(h.to_le_bytes()));
-        xxhash_rust::xxh3::xxh3_128(&bytes)
+        self.digest
     }
 
     /// The kernel's view in the arithmetic `T`.

@@ -1,6 +1,6 @@
 //! A batch of ski episodes: reset, step, observe, reward, autoreset, block by block.
 
-use super::codec::{read_player, write_player};
+use super::codec::{place, read_player, write_player, write_state};
 use super::pool::{INLINE_BELOW, pool, resolve_threads};
 use super::simulator::find_armor;
 use super::snapshot;
@@ -9,7 +9,7 @@ use crate::float_environment::DefaultFloats;
 use crate::input::Input;
 use crate::movement::Movement;
 use crate::observe::LayoutField;
-use crate::player::{Field, Player, fields, local, packed_bytes};
+use crate::player::{Field, Player, fields, packed_bytes};
 use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
@@ -108,10 +108,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         lanes.take(self.setup.count)
     }
 
-    fn place(&self, p: &Player<S, R::Scalar>) -> DVec3 {
-        self.setup.maps.to_world(local(p), IVec2::new(p.tile_x, p.tile_y))
-    }
-
     fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode) -> Status {
         let surface = self.setup.maps.surface::<R::Scalar>();
         let map = episode.map as usize;
@@ -119,7 +115,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             distance: run.distance(p, &surface).to_f64(),
             speed: p.velocity.length().to_f64(),
             time: run.seconds(self.rules.tick_ms),
-            outside: !self.setup.areas[map].contains(self.place(p).truncate().into()),
+            outside: !self.setup.areas[map].contains(place(&self.setup.maps, p).truncate().into()),
             terrain: map,
         }
     }
@@ -219,10 +215,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn state(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        for (p, _, _) in self.lanes() {
-            self.place(&p).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
-            write_player(&p, false, &mut out);
-        }
+        self.lanes().for_each(|(p, _, _)| write_state(&self.setup.maps, &p, &mut out));
         out
     }
 
