@@ -29,6 +29,13 @@ pub struct Armor {
     pub max_damage: f64,
     /// Damage per m/s of landing speed beyond [`LANDING_FREE_SPEED`].
     pub landing_scale: f64,
+    /// Half of the width and of the depth of the box, m. The box stands on the origin.
+    pub half_width: f64,
+    /// Height of the box, m. Half of it is the radius of the collision sphere, whose centre is that
+    /// far above the feet.
+    pub height: f64,
+    /// Factor of the damage by explosions.
+    pub explosion_scale: f64,
 }
 
 /// Light armor.
@@ -46,6 +53,9 @@ pub const LIGHT: Armor = Armor {
     jet_drain: 25.0,
     max_damage: 0.66,
     landing_scale: 0.005,
+    half_width: 0.5,
+    height: 2.3,
+    explosion_scale: 1.0,
 };
 
 /// Medium armor.
@@ -63,6 +73,9 @@ pub const MEDIUM: Armor = Armor {
     jet_drain: 31.25,
     max_damage: 1.0,
     landing_scale: 0.005,
+    half_width: 0.7,
+    height: 2.4,
+    explosion_scale: 1.0,
 };
 
 /// Heavy armor.
@@ -80,6 +93,9 @@ pub const HEAVY: Armor = Armor {
     jet_drain: 34.375,
     max_damage: 1.32,
     landing_scale: 0.006,
+    half_width: 0.8,
+    height: 2.6,
+    explosion_scale: 0.6,
 };
 
 /// Every armor, by its public name.

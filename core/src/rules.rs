@@ -6,16 +6,79 @@ use crate::real::Scalar;
 /// Switches of the movement model (docs/physics.md, section 12).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Physics {
-    /// Whether the fourth contact of a tick stops the player dead.
-    pub ski_bug: bool,
+    /// Whether the last contact that a tick allows stops the player dead. By default it does in the
+    /// `engine` tier and not in the others.
+    pub ski_bug: Option<bool>,
     /// Whether jets go out at an energy of 1 and light again at 5. Without it they burn at any energy
     /// above 0, which gives free thrust on an empty tank.
     pub hysteresis: bool,
+    /// `swept` tier: whether the literal corner of a contact at once, which pushes the player out of
+    /// the surface, is switched off.
+    pub clamp_fixup: bool,
+    /// `swept` tier: whether the move that redoes the last slice is swept as well.
+    pub fixup_swept: bool,
+    /// How the push of an explosion falls off.
+    pub knockback: Knockback,
+    /// Where explosions end.
+    pub cutoff: Cutoff,
+    /// How discs accelerate.
+    pub accel: Acceleration,
+    /// How discs fly and where they burst.
+    pub disc: DiscFlight,
+}
+
+/// How the push of an explosion falls off with distance (docs/physics.md, section 6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knockback {
+    /// The game's: weakest at the box centre, strongest a box side beyond a metre.
+    Tribes,
+    /// The article's first form, 1 - d/R.
+    Basic,
+    /// The basic form times 26/11, which meets the game's peak at 2 m.
+    LinearBoosted,
+}
+
+/// How far an explosion reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cutoff {
+    /// The radius and the smallest side of the armor's box, as the engine has it.
+    Engine,
+    /// The radius alone, as the article has it.
+    Radius,
+}
+
+/// How a disc accelerates to its terminal speed (section 7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acceleration {
+    /// At the nominal 5 m/s^2.
+    Nominal,
+    /// Not at all.
+    None,
+    /// At 2.5 m/s^2: the nominal force over the disc's mass.
+    Mass,
+}
+
+/// How a disc flies (section 7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiscFlight {
+    /// Swept exactly in every tick, bursting where it meets something.
+    Surface,
+    /// The 1998 engine's clock of 33 ms, unaccelerated, bursting at the place before the contact.
+    Engine,
 }
 
 impl Default for Physics {
     fn default() -> Self {
-        Self { ski_bug: false, hysteresis: true }
+        Self {
+            ski_bug: None,
+            hysteresis: true,
+            clamp_fixup: false,
+            fixup_swept: false,
+            knockback: Knockback::Tribes,
+            cutoff: Cutoff::Engine,
+            accel: Acceleration::Nominal,
+            disc: DiscFlight::Surface,
+        }
     }
 }
 
@@ -54,6 +117,14 @@ pub struct Rules<T> {
     pub max_damage: T,
     /// Damage per m/s of landing speed.
     pub landing_scale: T,
+    /// Half of the width and depth of the armor's box, m.
+    pub half_width: T,
+    /// Height of the armor's box, m.
+    pub height: T,
+    /// Mass.
+    pub mass: T,
+    /// What the armor makes of an explosion's damage.
+    pub explosion_scale: T,
     /// Switches.
     pub physics: Physics,
 }
@@ -82,6 +153,10 @@ impl<T: Scalar> Rules<T> {
             drain: t(armor.jet_drain * dt),
             max_damage: t(armor.max_damage),
             landing_scale: t(armor.landing_scale),
+            half_width: t(armor.half_width),
+            height: t(armor.height),
+            mass: t(armor.mass),
+            explosion_scale: t(armor.explosion_scale),
             physics,
         }
     }

@@ -71,6 +71,12 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
     type Energy<R: Real>: Group<R>;
     /// Damage taken by landings.
     type Damage<R: Real>: Group<R>;
+    /// Count of the ticks that ended at the bump limit, for those who measure the movement.
+    type BumpLimits<R: Real>: Group<R::Int>;
+    /// Whether explosions push and hurt.
+    const BLAST: bool;
+    /// Whether solids stand in the way.
+    const SOLIDS: bool;
 
     /// The features that the scene models.
     #[must_use]
@@ -80,6 +86,9 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
             (Self::Jet::<f32>::MODELED, "jet"),
             (Self::Energy::<f32>::MODELED, "energy"),
             (Self::Damage::<f32>::MODELED, "landing_damage"),
+            (Self::BLAST, "blast"),
+            (Self::SOLIDS, "solids"),
+            (Self::BumpLimits::<f32>::MODELED, "bump_limits"),
         ]
         .into_iter()
         .filter_map(|(modeled, name)| modeled.then_some(name))
@@ -98,6 +107,9 @@ impl Scene for Ski {
     type Jet<R: Real> = Has<R::Mask>;
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Absent;
+    const BLAST: bool = false;
+    const SOLIDS: bool = false;
 }
 
 /// Physics tests and notebooks: everything that moves a player on bare terrain, and no task.
@@ -111,4 +123,7 @@ impl Scene for Sandbox {
     type Jet<R: Real> = Has<R::Mask>;
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Has<R::Int>;
+    const BLAST: bool = true;
+    const SOLIDS: bool = false;
 }

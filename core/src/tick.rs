@@ -3,12 +3,11 @@
 use crate::armor;
 use crate::forces;
 use crate::input::Input;
-use crate::movement::Movement;
+use crate::movement::{Movement, Obstacles};
 use crate::player::{OLDEST_MS, Player};
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
-use crate::terrain::Surface;
 
 /// Largest view pitch, radians (88 degrees).
 pub const MAX_PITCH: f64 = 1.535_889_741_755_009_3;
@@ -26,20 +25,37 @@ pub fn wrap_angle<R: Real>(angle: R) -> R {
 }
 
 /// The player one tick later. The position is not yet wrapped back into its tile, so that the
-/// segment from the old position to the new one can be tested; see [`Surface::wrap`].
+/// segment from the old position to the new one can be tested; see
+/// [`Surface::wrap`](crate::terrain::Surface::wrap).
 #[inline(always)]
-pub fn tick<S: Scene, M: Movement, R: Real>(
+pub fn tick<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     before: &Player<S, R>,
     input: &Input<R>,
-    surface: &Surface<'_, R::Scalar>,
+    world: &W,
     rules: &Rules<R::Scalar>,
 ) -> Player<S, R> {
     let mut p = *before;
+    look(&mut p, input, rules);
+    act::<S, M, R, W>(&mut p, input, world, rules);
+    p
+}
 
+/// Turns the view, which comes before the trigger and the move.
+#[inline(always)]
+pub fn look<S: Scene, R: Real>(p: &mut Player<S, R>, input: &Input<R>, rules: &Rules<R::Scalar>) {
     p.yaw = wrap_angle(p.yaw + input.turn * R::splat(rules.dt));
     let top = R::lit(MAX_PITCH);
     p.pitch = input.pitch.min(top).max(-top);
+}
 
+/// Everything of a tick that comes after the view and the trigger: forces and the move.
+#[inline(always)]
+pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
+    p: &mut Player<S, R>,
+    input: &Input<R>,
+    world: &W,
+    rules: &Rules<R::Scalar>,
+) {
     let wish = forces::wish(input.forward, input.strafe, p.yaw, rules);
     let mut contact = p.contact();
     let energy = p.energy.get(R::splat(rules.max_energy));
@@ -79,6 +95,5 @@ pub fn tick<S: Scene, M: Movement, R: Real>(
     contact.age = (contact.age + R::Int::splat(rules.tick_ms)).clamp(0, OLDEST_MS);
     p.contact.set(contact);
 
-    M::advance(&mut p, surface, rules);
-    p
+    M::advance(p, world, rules);
 }

@@ -22,7 +22,7 @@ fn valley(degrees: f64) -> Heightfield {
 /// A player who slides down the eastern face at `speed` in this very tick, with `metres` to go to
 /// the crease, and what the tick makes of him.
 fn slide<T: Scalar>(degrees: f64, speed: f64, metres: f64, ski_bug: bool) -> (Lab<T>, Body<T>) {
-    let lab = Lab::<T>::with(&valley(degrees), Physics { ski_bug, ..Physics::default() });
+    let lab = Lab::<T>::with(&valley(degrees), Physics { ski_bug: Some(ski_bug), ..Physics::default() });
     let (sin, cos) = degrees.to_radians().sin_cos();
     let place = [metres * cos, 1.0, metres * sin + 1e-4];
     // Gravity comes first.

@@ -16,6 +16,9 @@ struct Walk;
 impl Scene for Walk {
     const NAME: &'static str = "walk";
     const JUMP: bool = false;
+    const BLAST: bool = false;
+    const SOLIDS: bool = false;
+    type BumpLimits<R: Real> = Absent;
     type Contact<R: Real> = Absent;
     type Jet<R: Real> = Absent;
     type Energy<R: Real> = Absent;

@@ -138,7 +138,7 @@ fn a_snapshot_of_another_layout_or_count_is_refused() {
     others[4].1.energy_pack = true;
     others[5].1.tick_ms = 16;
     others[6].1.scene = "ski";
-    others[7].1.physics.ski_bug = true;
+    others[7].1.physics.ski_bug = Some(true);
     others[8].1.physics.hysteresis = false;
     for (what, other) in others {
         let error = sim.restore(&other.build().unwrap().snapshot()).expect_err(what).to_string();

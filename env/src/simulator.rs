@@ -22,7 +22,11 @@ pub struct Simulator {
 
 /// The switches of a `discjump.Physics`.
 pub fn physics(value: Option<(bool, bool)>) -> Physics {
-    value.map_or_else(Physics::default, |(ski_bug, hysteresis)| Physics { ski_bug, hysteresis })
+    value.map_or_else(Physics::default, |(ski_bug, hysteresis)| Physics {
+        ski_bug: Some(ski_bug),
+        hysteresis,
+        ..Physics::default()
+    })
 }
 
 impl Simulator {

@@ -259,7 +259,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
                 let mut input = Input::<R>::idle();
                 raw.iter().enumerate().for_each(|(lane, r)| input.set_lane(lane, &r.to_input()));
                 for _ in 0..ticks {
-                    let mut p = crate::tick::tick::<S, M, R>(block, &input, &surface, rules);
+                    let mut p = crate::tick::tick::<S, M, R, _>(block, &input, &surface, rules);
                     (p.position.x, p.position.y, p.tile_x, p.tile_y) =
                         surface.wrap::<R>(p.position.x, p.position.y, p.tile_x, p.tile_y);
                     *block = p;

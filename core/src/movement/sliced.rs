@@ -1,14 +1,13 @@
 //! The article's movement in slices of at most a metre, restarted at each contact
 //! (docs/physics.md, section 5.2): the `authentic` and the `reference` tier.
 
-use super::Movement;
 use super::contact::bounce;
+use super::{Movement, Obstacles};
 use crate::armor;
 use crate::player::Player;
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::Scene;
-use crate::terrain::Surface;
 
 /// Slices of at most a metre, each swept; a contact charges no time and slices the rest anew.
 #[derive(Clone, Copy, Debug)]
@@ -16,9 +15,9 @@ pub struct Sliced;
 
 impl Movement for Sliced {
     #[inline(always)]
-    fn advance<S: Scene, R: Real>(
+    fn advance<S: Scene, R: Real, W: Obstacles<R>>(
         p: &mut Player<S, R>,
-        surface: &Surface<'_, R::Scalar>,
+        world: &W,
         rules: &Rules<R::Scalar>,
     ) {
         let zero = R::zero();
@@ -52,7 +51,8 @@ impl Movement for Sliced {
             }
 
             let step = p.velocity * slice;
-            let hit = surface.sweep::<R>(p.map, p.position, step, moving);
+            let at = p.place();
+            let hit = world.sweep(&at, step, moving);
             let struck = moving.and(hit.hit);
             let passed = moving.and(hit.hit.not());
 
@@ -65,8 +65,15 @@ impl Movement for Sliced {
             fresh = struck;
             if struck.any() {
                 touched = touched.or(struck);
-                bounce(p, struck, hit.normal, rules);
-                let upward = struck.and(zero.lt(hit.normal.z));
+                let mut blocked = struck;
+                if W::BODIES {
+                    let steep = struck.and(hit.normal.z.lt(R::lit(armor::JUMPABLE_UP)));
+                    let lift = world.step_up(&at, step, &hit, steep);
+                    p.position.z = p.position.z + lift;
+                    blocked = struck.and(zero.lt(lift).not());
+                }
+                bounce(p, blocked, hit.normal, rules);
+                let upward = blocked.and(zero.lt(hit.normal.z));
                 grip = R::select(upward, hit.normal.z, grip);
                 let slow = p.velocity.length().lt(R::lit(armor::STOP_SPEED));
                 let stops = upward.and(p.crawled).and(slow);
@@ -75,7 +82,8 @@ impl Movement for Sliced {
                 moving = moving.and(stops.not());
                 bumps = R::Int::select(struck, bumps + R::Int::splat(1), bumps);
                 let exhausted = R::Int::splat(armor::MAX_BUMPS - 1).lt(bumps).and(moving);
-                if rules.physics.ski_bug {
+                p.count_bump_limit(exhausted);
+                if rules.physics.ski_bug.unwrap_or(false) {
                     p.velocity = V3::select(exhausted, V3::zero(), p.velocity);
                 }
                 moving = moving.and(exhausted.not());

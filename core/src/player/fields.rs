@@ -108,6 +108,11 @@ pub fn visit<S: Scene, T: Scalar>(p: &mut Player<S, T>, v: &mut impl FieldVisito
         v.int("jump_age", &mut contact.age);
         p.contact.set(contact);
     }
+    if S::BumpLimits::<T>::MODELED {
+        let mut count = p.bump_limits.get(0);
+        v.int("bump_limits", &mut count);
+        p.bump_limits.set(count);
+    }
 }
 
 struct Describe(Vec<Field>);

@@ -21,6 +21,22 @@ pub struct Contact<R: Real> {
 /// Ages stop here: two weeks, and far from the end of `i32`.
 pub const OLDEST_MS: i32 = 1 << 30;
 
+/// The count of exhausted bump limits stops here.
+pub const MOST_BUMP_LIMITS: i32 = 1 << 30;
+
+/// Where somebody is: a local position, its tile and its map.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<R: Real> {
+    /// Local position, m.
+    pub position: V3<R>,
+    /// Tiles east of the first one.
+    pub tile_x: R::Int,
+    /// Tiles north of the first one.
+    pub tile_y: R::Int,
+    /// Where the map starts in the pool of heights.
+    pub map: R::Int,
+}
+
 /// State of one player, or of as many as `R` has lanes (docs/physics.md, section 3.1).
 ///
 /// The origin is the centre of the feet. Positions are local: metres from the map's centre vertex,
@@ -56,6 +72,8 @@ pub struct Player<S: Scene, R: Real> {
     pub energy: S::Energy<R>,
     /// Damage taken.
     pub damage: S::Damage<R>,
+    /// Ticks that ended at the bump limit since the state was set.
+    pub bump_limits: S::BumpLimits<R>,
 }
 
 impl<S: Scene, R: Real> Player<S, R> {
@@ -79,6 +97,7 @@ impl<S: Scene, R: Real> Player<S, R> {
             jetting: Group::new(off),
             energy: Group::new(R::splat(rules.max_energy)),
             damage: Group::new(R::zero()),
+            bump_limits: Group::new(zero),
         }
     }
 
@@ -116,6 +135,7 @@ impl<S: Scene, R: Real> Player<S, R> {
             jetting: Group::new(self.jetting.get(R::Mask::splat(false)).lane(lane)),
             energy: Group::new(self.energy.get(R::zero()).lane(lane)),
             damage: Group::new(self.damage.get(R::zero()).lane(lane)),
+            bump_limits: Group::new(self.bump_limits.get(R::Int::splat(0)).lane(lane)),
         }
     }
 
@@ -147,6 +167,26 @@ impl<S: Scene, R: Real> Player<S, R> {
         let mut damage = self.damage.get(R::zero());
         damage.set_lane(lane, p.damage.get(R::Scalar::default()));
         self.damage.set(damage);
+        let mut limits = self.bump_limits.get(R::Int::splat(0));
+        limits.set_lane(lane, p.bump_limits.get(0));
+        self.bump_limits.set(limits);
+    }
+
+    /// Where the player is.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(&self) -> Place<R> {
+        Place { position: self.position, tile_x: self.tile_x, tile_y: self.tile_y, map: self.map }
+    }
+
+    /// Counts a tick that the bump limit ended.
+    #[inline(always)]
+    pub fn count_bump_limit(&mut self, exhausted: R::Mask) {
+        if S::BumpLimits::<R>::MODELED {
+            let count = self.bump_limits.get(R::Int::splat(0));
+            let more = (count + R::Int::splat(1)).clamp(0, MOST_BUMP_LIMITS);
+            self.bump_limits.set(R::Int::select(exhausted, more, count));
+        }
     }
 
     /// The normal and age of the last jumpable contact; expired where the scene has no such memory.

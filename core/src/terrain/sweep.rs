@@ -10,8 +10,33 @@ pub struct Hit<R: Real> {
     pub hit: R::Mask,
     /// Where, as a fraction of the path, in [0, 1].
     pub fraction: R,
-    /// Unit normal of the triangle.
+    /// Unit normal of what is met: the triangle's or the body's.
     pub normal: V3<R>,
+    /// Whether it is a body rather than terrain.
+    pub body: R::Mask,
+}
+
+impl<R: Real> Hit<R> {
+    /// No contact.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        let none = R::Mask::splat(false);
+        Self { hit: none, fraction: R::lit(1.0), normal: V3::up(), body: none }
+    }
+
+    /// The earlier of two contacts; the first where both come at once.
+    #[inline(always)]
+    #[must_use]
+    pub fn first(a: Self, b: Self) -> Self {
+        let later = b.hit.and(a.hit.not().or(b.fraction.lt(a.fraction)));
+        Self {
+            hit: a.hit.or(b.hit),
+            fraction: R::select(later, b.fraction, a.fraction),
+            normal: V3::select(later, b.normal, a.normal),
+            body: later.pick(b.body, a.body),
+        }
+    }
 }
 
 /// The part of a path that lies over one triangle, in the square's (mirrored) coordinates.
@@ -34,7 +59,7 @@ struct Path<R> {
 
 /// Contact with the plane of one triangle: one-sided, and at the entry for what is already below.
 #[inline(always)]
-fn contact<R: Real>(
+fn contact<R: Real, const TWO_SIDED: bool>(
     square: &Square<R>,
     lower: R::Mask,
     inverse: R,
@@ -50,9 +75,15 @@ fn contact<R: Real>(
     let zero = R::zero();
     let under = enter.le(zero);
     let crosses = leave.lt(zero);
-    let hit = square.ground.and(approach.lt(zero)).and(piece.from.lt(piece.to)).and(under.or(crosses));
+    let meets = if TWO_SIDED {
+        // From above down, or from below (the plane itself counts as below) up.
+        under.not().and(crosses).or(under.and(zero.lt(leave)))
+    } else {
+        approach.lt(zero).and(under.or(crosses))
+    };
+    let hit = square.ground.and(meets).and(piece.from.lt(piece.to));
     let at = piece.from + (piece.to - piece.from) * (enter / (enter - leave));
-    let fraction = R::select(under, piece.from, at);
+    let fraction = if TWO_SIDED { at } else { R::select(under, piece.from, at) };
     (hit, fraction, square.world_slope(&plane), plane.gy)
 }
 
@@ -64,6 +95,34 @@ impl<T: Scalar> Surface<'_, T> {
     /// Lanes outside `active` report no contact.
     #[inline(always)]
     pub fn sweep<R: Real<Scalar = T>>(
+        &self,
+        map: R::Int,
+        start: V3<R>,
+        path: V3<R>,
+        active: R::Mask,
+    ) -> Hit<R> {
+        self.march::<R, false>(map, start, path, active)
+    }
+
+    /// Follows a line from a local position along a displacement, both in metres, to the first
+    /// triangle that it crosses from either side (section 8: a projectile's line). A start exactly on
+    /// a triangle counts as below it. The normal is the upper side's, whichever side is met.
+    ///
+    /// Lanes outside `active` report no contact.
+    #[inline(always)]
+    pub fn line<R: Real<Scalar = T>>(
+        &self,
+        map: R::Int,
+        start: V3<R>,
+        path: V3<R>,
+        active: R::Mask,
+    ) -> Hit<R> {
+        self.march::<R, true>(map, start, path, active)
+    }
+
+    /// Walks the squares under a path in order and stops at the first contact.
+    #[inline(always)]
+    fn march<R: Real<Scalar = T>, const TWO_SIDED: bool>(
         &self,
         map: R::Int,
         start: V3<R>,
@@ -123,9 +182,14 @@ impl<T: Scalar> Surface<'_, T> {
             let cut = R::select(along, to, cut);
             let first_lower = R::select(along, -side, turn).lt(zero);
             let (hit_a, at_a, gx_a, gy_a) =
-                contact(&square, first_lower, inverse, &local, &Piece { from, to: cut });
-            let (hit_b, at_b, gx_b, gy_b) =
-                contact(&square, first_lower.not(), inverse, &local, &Piece { from: cut, to });
+                contact::<R, TWO_SIDED>(&square, first_lower, inverse, &local, &Piece { from, to: cut });
+            let (hit_b, at_b, gx_b, gy_b) = contact::<R, TWO_SIDED>(
+                &square,
+                first_lower.not(),
+                inverse,
+                &local,
+                &Piece { from: cut, to },
+            );
             let hit = active.and(hit_a.or(hit_b));
             fraction = R::select(hit, R::select(hit_a, at_a, at_b), fraction);
             slope_x = R::select(hit, R::select(hit_a, gx_a, gx_b), slope_x);
@@ -142,6 +206,7 @@ impl<T: Scalar> Surface<'_, T> {
             y = first_y - R::from_int(j - first_j) * size;
             from = to;
         }
-        Hit { hit: found, fraction, normal: unit_normal(slope_x, slope_y) }
+        let body = R::Mask::splat(false);
+        Hit { hit: found, fraction, normal: unit_normal(slope_x, slope_y), body }
     }
 }

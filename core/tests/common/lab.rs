@@ -36,7 +36,7 @@ impl<T: Scalar> Lab<T> {
 
     pub fn tick<S: Scene>(&self, before: &Player<S, T>, input: &Input<T>) -> Player<S, T> {
         let surface = self.maps.surface::<T>();
-        let mut p = tick::<S, Sliced, T>(before, input, &surface, &self.rules);
+        let mut p = tick::<S, Sliced, T, _>(before, input, &surface, &self.rules);
         (p.position.x, p.position.y, p.tile_x, p.tile_y) =
             surface.wrap::<T>(p.position.x, p.position.y, p.tile_x, p.tile_y);
         p

@@ -173,7 +173,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
                 break;
             }
             let before = block.player;
-            let mut after = crate::tick::tick::<S, M, R>(&before, &input, &surface, &self.rules);
+            let mut after = crate::tick::tick::<S, M, R, _>(&before, &input, &surface, &self.rules);
             let mut run = block.run;
             let verdict = run.judge(&before, &after, &self.setup.task, self.rules.max_damage, &surface);
             (after.position.x, after.position.y, after.tile_x, after.tile_y) =
