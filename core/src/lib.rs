@@ -8,8 +8,10 @@
 //!   task, observe           what an episode is, and what an agent sees
 //!     tick                  one player, one tick: a pure function
 //!       movement, forces    how he moves, and what pushes him
+//!       flight, blast       how he fires, how projectiles fly, what their explosions do
 //!         terrain           heights, normals, sweeps; generated maps and their statistics
 //!           player, scene   his state, and which parts of it a scene models
+//!           arms            his launcher and its projectiles: constants and state
 //!             armor, rules  constants
 //!             real          the number type: f64, f32, later lanes
 //! random                    counted draws, used by terrain, task and batch
@@ -17,8 +19,11 @@
 //! ```
 
 pub mod armor;
+pub mod arms;
 pub mod batch;
+pub mod blast;
 pub mod error;
+pub mod flight;
 mod float_environment;
 pub mod forces;
 pub mod input;

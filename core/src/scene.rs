@@ -17,6 +17,9 @@ pub trait Group<V: Copy>: Copy + Debug + Send + Sync + 'static {
     fn get(&self, absent: V) -> V;
     /// Overwrites the value; nothing where the scene does not model it.
     fn set(&mut self, value: V);
+    /// The value in place, for groups too large to be copied about; none where the scene does not
+    /// model it.
+    fn as_mut(&mut self) -> Option<&mut V>;
 }
 
 /// A group that the scene models.
@@ -41,6 +44,10 @@ impl<V: Copy + Debug + Send + Sync + 'static> Group<V> for Has<V> {
     fn set(&mut self, value: V) {
         self.0 = value;
     }
+    #[inline(always)]
+    fn as_mut(&mut self) -> Option<&mut V> {
+        Some(&mut self.0)
+    }
 }
 
 impl<V: Copy> Group<V> for Absent {
@@ -55,6 +62,10 @@ impl<V: Copy> Group<V> for Absent {
     }
     #[inline(always)]
     fn set(&mut self, _value: V) {}
+    #[inline(always)]
+    fn as_mut(&mut self) -> Option<&mut V> {
+        None
+    }
 }
 
 /// The list of what a scene models.
@@ -73,6 +84,8 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
     type Damage<R: Real>: Group<R>;
     /// Count of the ticks that ended at the bump limit, for those who measure the movement.
     type BumpLimits<R: Real>: Group<R::Int>;
+    /// A launcher and its projectiles. They lie beside the player, in the same block.
+    type Arms<R: Real>: Group<crate::arms::Arms<R>>;
     /// Whether explosions push and hurt.
     const BLAST: bool;
     /// Whether solids stand in the way.
@@ -86,6 +99,7 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
             (Self::Jet::<f32>::MODELED, "jet"),
             (Self::Energy::<f32>::MODELED, "energy"),
             (Self::Damage::<f32>::MODELED, "landing_damage"),
+            (Self::Arms::<f32>::MODELED, "discs"),
             (Self::BLAST, "blast"),
             (Self::SOLIDS, "solids"),
             (Self::BumpLimits::<f32>::MODELED, "bump_limits"),
@@ -108,6 +122,7 @@ impl Scene for Ski {
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
     type BumpLimits<R: Real> = Absent;
+    type Arms<R: Real> = Absent;
     const BLAST: bool = false;
     const SOLIDS: bool = false;
 }
@@ -124,6 +139,41 @@ impl Scene for Sandbox {
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
     type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Absent;
     const BLAST: bool = true;
     const SOLIDS: bool = false;
+}
+
+/// Disc jumping over bare terrain: everything that moves a player, and his launcher.
+#[derive(Clone, Copy, Debug)]
+pub struct DiscJump;
+
+impl Scene for DiscJump {
+    const NAME: &'static str = "disc_jump";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
+    const BLAST: bool = true;
+    const SOLIDS: bool = false;
+}
+
+/// The whole game's movement: as [`DiscJump`], with solids.
+#[derive(Clone, Copy, Debug)]
+pub struct Mission;
+
+impl Scene for Mission {
+    const NAME: &'static str = "mission";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
+    const BLAST: bool = true;
+    const SOLIDS: bool = true;
 }
