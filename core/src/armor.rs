@@ -113,16 +113,24 @@ pub const JET_CUTOFF: f64 = 1.0;
 pub const JET_REIGNITE: f64 = 5.0;
 /// Age of a jumpable contact, in milliseconds, from which it allows no jump.
 pub const JUMP_GRACE_MS: i32 = 256;
+/// `engine`: the same in ticks, at any tick length.
+pub const ENGINE_JUMP_GRACE: i32 = 8;
+/// `engine`: age of a fresh player's contact memory, ticks.
+pub const ENGINE_FRESH_AGE: i32 = 100;
 /// Smallest n.up of a surface that can be jumped from (78.5 degrees).
 pub const JUMPABLE_UP: f64 = 0.2;
 /// Outward speed that every contact adds, m/s.
 pub const OUTWARD_PUSH: f64 = 0.001;
+/// `engine`: the same.
+pub const ENGINE_OUTWARD_PUSH: f64 = 0.0001;
 /// Below this speed a player crawls, m/s.
 pub const CRAWL_SPEED: f64 = 0.1;
-/// A crawling player below this speed stops on an upward surface, m/s.
+/// A crawling player below this speed stops on an upward surface, m/s; in `engine` below n.up times it.
 pub const STOP_SPEED: f64 = 0.75;
 /// What remains of the friction memory from tick to tick while something is touched.
 pub const FRICTION_MEMORY: f64 = 0.6;
+/// `engine`: a memory below this is dropped.
+pub const ENGINE_LEAST_MEMORY: f64 = 0.1;
 /// Landing speed that costs nothing, m/s.
 pub const LANDING_FREE_SPEED: f64 = 25.0;
 /// Longest slice of a sliced move, m.
@@ -131,3 +139,11 @@ pub const SLICE: f64 = 1.0;
 pub const MAX_BUMPS: i32 = 4;
 /// Slices after which a move is swept in one piece instead.
 pub const MAX_SLICES: i32 = 65_536;
+/// `engine`: longest sub-step of a tick's first attempt, m.
+pub const ENGINE_STEP: f64 = 0.3;
+/// `engine`: longest sub-step after a contact, m.
+pub const ENGINE_FINE_STEP: f64 = 0.075;
+/// `engine`: attempts after which a tick's movement ends.
+pub const ENGINE_ATTEMPTS: i32 = 3;
+/// `engine`: largest n.up of a face that is tried to step over.
+pub const ENGINE_STEP_UP: f64 = 0.707;

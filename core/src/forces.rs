@@ -1,8 +1,7 @@
 //! Jump, jets and ground friction (docs/physics.md, section 4).
 
 use crate::armor;
-use crate::player::Contact;
-use crate::real::{Int, Mask, Real, V3};
+use crate::real::{Mask, Real, V3};
 use crate::rules::Rules;
 
 /// What the keys ask for: a walk velocity and its direction, both horizontal.
@@ -16,23 +15,46 @@ pub struct Wish<R: Real> {
     pub any: R::Mask,
 }
 
-/// The wish of forward and strafe keys at a yaw (section 3.1, step 1).
+/// Forward is (-sin, cos), right is (cos, sin).
+#[inline(always)]
+fn turned<R: Real>(forward: R, right: R, (sin, cos): (R, R)) -> V3<R> {
+    V3::new(right * cos - forward * sin, forward * cos + right * sin, R::zero())
+}
+
+/// The wish of forward and strafe keys at a yaw in the article's model (section 3.1, step 1): its
+/// direction leans towards the faster key.
 #[inline(always)]
 pub fn wish<R: Real>(forward: R, strafe: R, yaw: R, rules: &Rules<R::Scalar>) -> Wish<R> {
-    let (sin, cos) = yaw.sin_cos();
     let top = R::splat(rules.walk_forward);
-    let f = forward * top;
-    let s = strafe * R::splat(rules.walk_side);
-    // forward is (-sin, cos), right is (cos, sin).
-    let x = s * cos - f * sin;
-    let y = f * cos + s * sin;
+    let wished = turned(forward * top, strafe * R::splat(rules.walk_side), yaw.sin_cos());
+    let V3 { x, y, .. } = wished;
     let length = (x * x + y * y).sqrt();
     let any = R::zero().lt(length);
     let safe = R::select(any, length, R::lit(1.0));
     let direction = V3::new(x / safe, y / safe, R::zero());
     let long = top.lt(length);
-    let velocity = V3::select(long, direction * top, V3::new(x, y, R::zero()));
+    let velocity = V3::select(long, direction * top, wished);
     Wish { velocity, direction, any }
+}
+
+/// The wish in the engine's model (section 3.2, step 2): slower backwards, its direction weighs the
+/// keys alike.
+#[inline(always)]
+pub fn engine_wish<R: Real>(forward: R, strafe: R, yaw: R, rules: &Rules<R::Scalar>) -> Wish<R> {
+    let zero = R::zero();
+    let side = R::splat(rules.walk_side);
+    let f = forward * R::select(forward.lt(zero), side, R::splat(rules.walk_forward));
+    let s = strafe * side;
+    let frame = yaw.sin_cos();
+    let wished = turned(f, s, frame);
+    let (length, top) = ((f * f + s * s).sqrt(), f.abs().max(s.abs()));
+    let any = zero.lt(length);
+    let safe = R::select(any, length, R::lit(1.0));
+    // One key alone is its own top speed: not even rounding may touch it.
+    let k = R::select(top.lt(length), top / safe, R::lit(1.0));
+    let pressed = (forward * forward + strafe * strafe).sqrt();
+    let direction = turned(forward, strafe, frame) * (R::lit(1.0) / R::select(any, pressed, R::lit(1.0)));
+    Wish { velocity: wished * k, direction, any }
 }
 
 /// Change of velocity by a jump off a surface (section 4.1): no tangential loss with the key pressed
@@ -58,15 +80,10 @@ pub fn jets_burn<R: Real>(key: R::Mask, burning: R::Mask, energy: R, rules: &Rul
     key.and(allowed)
 }
 
-/// Change of velocity by burning jets in one tick (section 4.2). `contact` is the memory after this
-/// tick's jump: a jump turns the jets sideways at once.
+/// Change of velocity by burning jets in one tick (section 4.2). Straight up while the last jumpable
+/// contact is `recent`.
 #[inline(always)]
-pub fn jet<R: Real>(
-    velocity: V3<R>,
-    wish: &Wish<R>,
-    contact: &Contact<R>,
-    rules: &Rules<R::Scalar>,
-) -> V3<R> {
+pub fn jet<R: Real>(velocity: V3<R>, wish: &Wish<R>, recent: R::Mask, rules: &Rules<R::Scalar>) -> V3<R> {
     let thrust = R::splat(rules.jet);
     let along = velocity.dot(wish.direction);
     let fade = R::splat(rules.fade_speed);
@@ -74,7 +91,6 @@ pub fn jet<R: Real>(
     let share = R::select(along.lt(R::zero()), one, one - along / fade);
     let share = R::select(fade.lt(along), R::zero(), share);
     let share = share.min(R::splat(rules.max_sideways));
-    let recent = contact.age.lt(R::Int::splat(armor::JUMP_GRACE_MS));
     let upwards = wish.any.not().or(recent);
     let share = R::select(upwards, R::zero(), share);
     wish.direction * (share * thrust) + V3::up() * ((one - share) * thrust)

@@ -4,6 +4,16 @@ use crate::armor::{self, Armor};
 use crate::error::{InputError, refuse};
 use crate::real::Scalar;
 
+/// The two movement models (docs/physics.md, section 12): a tier has one of them, so whoever asks
+/// asks a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// The article's: semi-implicit Euler, point at the feet, ages in milliseconds.
+    Article,
+    /// The 1998 engine's: trapezoid, sphere, ages in ticks.
+    Engine,
+}
+
 /// Switches of the movement model (docs/physics.md, section 12).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Physics {
@@ -126,9 +136,9 @@ pub struct Rules<T> {
     pub tick_ms: i32,
     /// Speed gained by gravity in a tick, m/s (negative).
     pub fall: T,
-    /// Forward and backward walk speed, m/s.
+    /// Forward walk speed, m/s; in the article's model also the backward one.
     pub walk_forward: T,
-    /// Sideways walk speed, m/s.
+    /// Sideways walk speed, m/s; in the engine's model also the backward one.
     pub walk_side: T,
     /// Speed of a jump, J/m, m/s.
     pub jump: T,
@@ -144,8 +154,12 @@ pub struct Rules<T> {
     pub traction: T,
     /// Energy tank.
     pub max_energy: T,
-    /// Energy gained per tick.
+    /// Energy gained per tick, an energy pack's share included.
     pub recharge: T,
+    /// The energy pack's share of it; 0 without one.
+    pub pack_recharge: T,
+    /// Age of a fresh player's contact memory: expired.
+    pub fresh_age: i32,
     /// Energy the jets use per tick.
     pub drain: T,
     /// Damage that kills.
@@ -165,11 +179,12 @@ pub struct Rules<T> {
 }
 
 impl<T: Scalar> Rules<T> {
-    /// The rules of an armor at a tick length.
+    /// The rules of a model for an armor at a tick length.
     #[must_use]
-    pub fn new(armor: &Armor, energy_pack: bool, tick_ms: u32, physics: Physics) -> Self {
+    pub fn new(model: Model, armor: &Armor, energy_pack: bool, tick_ms: u32, physics: Physics) -> Self {
         let dt = f64::from(tick_ms) / 1000.0;
-        let recharge = armor::RECHARGE + if energy_pack { armor::PACK_RECHARGE } else { 0.0 };
+        let pack_recharge = if energy_pack { armor::PACK_RECHARGE } else { 0.0 };
+        let recharge = armor::RECHARGE + pack_recharge;
         let t = T::from_f64;
         Self {
             dt: t(dt),
@@ -185,6 +200,11 @@ impl<T: Scalar> Rules<T> {
             traction: t(armor.traction),
             max_energy: t(armor.max_energy),
             recharge: t(recharge * dt),
+            pack_recharge: t(pack_recharge * dt),
+            fresh_age: match model {
+                Model::Article => armor::JUMP_GRACE_MS,
+                Model::Engine => armor::ENGINE_FRESH_AGE,
+            },
             drain: t(armor.jet_drain * dt),
             max_damage: t(armor.max_damage),
             landing_scale: t(armor.landing_scale),

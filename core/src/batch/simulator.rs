@@ -8,7 +8,7 @@ use crate::armor::Armor;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
 use crate::input::Input;
-use crate::movement::{Movement, Sliced};
+use crate::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use crate::player::{Field, OLDEST_MS, Player, fields, packed_bytes};
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules};
@@ -104,7 +104,7 @@ pub struct SimulatorSetup<'a> {
     pub armor: &'a str,
     /// Whether the players wear an energy pack.
     pub energy_pack: bool,
-    /// "authentic" or "reference".
+    /// "reference", "authentic", "swept", "fast", "engine", or "anyway".
     pub fidelity: &'a str,
     /// Switches of the movement model.
     pub physics: Physics,
@@ -141,15 +141,25 @@ impl SimulatorSetup<'_> {
     /// # Errors
     /// Names the argument that is out of range or unknown, with what was expected.
     pub fn build(&self) -> Result<Box<dyn Bodies>, InputError> {
-        match (self.scene, self.fidelity) {
-            ("ski", "authentic") => self.kernel::<Ski, Sliced, f32>(),
-            ("ski", "reference") => self.kernel::<Ski, Sliced, f64>(),
-            ("sandbox", "authentic") => self.kernel::<Sandbox, Sliced, f32>(),
-            ("sandbox", "reference") => self.kernel::<Sandbox, Sliced, f64>(),
-            ("ski" | "sandbox", other) => {
-                refuse!("fidelity: expected \"authentic\" or \"reference\", got {other:?}")
-            }
-            (other, _) => refuse!("scene: expected \"ski\" or \"sandbox\", got {other:?}"),
+        match self.scene {
+            "ski" => self.tier::<Ski>(),
+            "sandbox" => self.tier::<Sandbox>(),
+            other => refuse!("scene: expected \"ski\" or \"sandbox\", got {other:?}"),
+        }
+    }
+
+    fn tier<S: Scene>(&self) -> Result<Box<dyn Bodies>, InputError> {
+        match self.fidelity {
+            "reference" => self.kernel::<S, Sliced, f64>(),
+            "authentic" => self.kernel::<S, Sliced, f32>(),
+            "swept" => self.kernel::<S, Swept, f32>(),
+            "fast" => self.kernel::<S, Fast, f32>(),
+            "engine" => self.kernel::<S, Engine, f32>(),
+            "anyway" => self.kernel::<S, Anyway, f32>(),
+            other => refuse!(
+                "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\", \"engine\" or \"anyway\", \
+                 got {other:?}"
+            ),
         }
     }
 
@@ -162,7 +172,7 @@ impl SimulatorSetup<'_> {
         let _floats = DefaultFloats::enter();
         let threads = resolve_threads(self.threads)?;
         let maps = Maps::new(core::slice::from_ref(self.terrain))?;
-        let rules = Rules::new(armor, self.energy_pack, self.tick_ms, self.physics);
+        let rules = Rules::new(M::MODEL, armor, self.energy_pack, self.tick_ms, self.physics);
         let zero = R::zero();
         let ground = maps.surface::<R::Scalar>().ground::<R>(R::Int::splat(0), zero, zero).height;
         let fresh = Player::new(&rules, V3::new(zero, zero, ground), R::Int::splat(0));

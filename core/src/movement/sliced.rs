@@ -1,12 +1,11 @@
 //! The article's movement in slices of at most a metre, restarted at each contact
 //! (docs/physics.md, section 5.2): the `authentic` and the `reference` tier.
 
-use super::contact::bounce;
+use super::contact::{Tally, slices};
 use super::{Movement, Obstacles};
-use crate::armor;
 use crate::player::Player;
 use crate::real::{Int, Mask, Real, V3};
-use crate::rules::Rules;
+use crate::rules::{Model, Rules};
 use crate::scene::Scene;
 
 /// Slices of at most a metre, each swept; a contact charges no time and slices the rest anew.
@@ -14,31 +13,27 @@ use crate::scene::Scene;
 pub struct Sliced;
 
 impl Movement for Sliced {
+    const MODEL: Model = Model::Article;
+
     #[inline(always)]
     fn advance<S: Scene, R: Real, W: Obstacles<R>>(
         p: &mut Player<S, R>,
+        _before: V3<R>,
         world: &W,
         rules: &Rules<R::Scalar>,
     ) {
-        let zero = R::zero();
-        let none = R::Mask::splat(false);
+        let mut tally = Tally::new();
         let mut left = R::splat(rules.dt);
-        let mut bumps = R::Int::splat(0);
-        let mut grip = zero;
-        let mut touched = none;
         let mut moving = R::Mask::splat(true);
 
         // One turn of the loop is one slice. `fresh` players slice what is left of the tick anew.
         let mut fresh = moving;
         let mut begin = p.position;
-        let mut slice = zero;
+        let mut slice = R::zero();
         let mut slices_left = R::Int::splat(0);
         loop {
             if fresh.any() {
-                let metres = p.velocity.length() * left;
-                let wanted = (metres / R::lit(armor::SLICE)).ceil_int();
-                let many = R::Int::splat(armor::MAX_SLICES).lt(wanted);
-                let count = R::Int::select(many, R::Int::splat(1), wanted);
+                let count = slices(p.velocity.length() * left);
                 let moves = R::Int::splat(0).lt(count);
                 moving = moving.and(fresh.not().or(moves));
                 let safe = R::Int::select(moves, count, R::Int::splat(1));
@@ -64,34 +59,11 @@ impl Movement for Sliced {
 
             fresh = struck;
             if struck.any() {
-                touched = touched.or(struck);
-                let mut blocked = struck;
-                if W::BODIES {
-                    let steep = struck.and(hit.normal.z.lt(R::lit(armor::JUMPABLE_UP)));
-                    let lift = world.step_up(&at, step, &hit, steep);
-                    p.position.z = p.position.z + lift;
-                    blocked = struck.and(zero.lt(lift).not());
-                }
-                bounce(p, blocked, hit.normal, rules);
-                let upward = blocked.and(zero.lt(hit.normal.z));
-                grip = R::select(upward, hit.normal.z, grip);
-                let slow = p.velocity.length().lt(R::lit(armor::STOP_SPEED));
-                let stops = upward.and(p.crawled).and(slow);
-                p.velocity = V3::select(stops, V3::zero(), p.velocity);
-                p.position = V3::select(stops, begin, p.position);
+                let stops = tally.meet(p, world, (&at, step, begin), (&hit, struck), rules);
                 moving = moving.and(stops.not());
-                bumps = R::Int::select(struck, bumps + R::Int::splat(1), bumps);
-                let exhausted = R::Int::splat(armor::MAX_BUMPS - 1).lt(bumps).and(moving);
-                p.count_bump_limit(exhausted);
-                if rules.physics.ski_bug.unwrap_or(false) {
-                    p.velocity = V3::select(exhausted, V3::zero(), p.velocity);
-                }
-                moving = moving.and(exhausted.not());
+                moving = moving.and(tally.limit(p, moving, rules).not());
             }
         }
-
-        let memory = grip.max(R::lit(armor::FRICTION_MEMORY) * p.friction).min(R::lit(1.0));
-        p.friction = R::select(touched, memory, zero);
-        p.touched = touched;
+        tally.settle(p);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Contact, Player};
 use crate::real::{Int, Scalar, V3};
+use crate::rules::{Model, Rules};
 use crate::scene::{Group, Scene};
 
 /// How a field is stored, little-endian.
@@ -135,7 +136,7 @@ impl<T: Scalar> FieldVisitor<T> for Describe {
 #[must_use]
 pub fn fields<S: Scene, T: Scalar>(place: bool) -> Vec<Field> {
     let rules =
-        crate::rules::Rules::<T>::new(&crate::armor::LIGHT, false, 32, crate::rules::Physics::default());
+        Rules::<T>::new(Model::Article, &crate::armor::LIGHT, false, 32, crate::rules::Physics::default());
     let mut describe = Describe(Vec::new());
     visit(&mut Player::<S, T>::new(&rules, V3::zero(), 0), &mut describe, place);
     describe.0

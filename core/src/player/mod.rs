@@ -15,6 +15,8 @@ pub struct Contact<R: Real> {
     /// Its normal.
     pub normal: V3<R>,
     /// Milliseconds since it was touched, saturating at [`OLDEST_MS`]; [`JUMP_GRACE_MS`] or more: expired.
+    /// In the `engine` tier it counts ticks (saturating at the same number), and is expired from
+    /// [`ENGINE_JUMP_GRACE`](crate::armor::ENGINE_JUMP_GRACE) on.
     pub age: R::Int,
 }
 
@@ -93,7 +95,7 @@ impl<S: Scene, R: Real> Player<S, R> {
             friction: R::zero(),
             touched: off,
             crawled: off,
-            contact: Group::new(Contact { normal: V3::up(), age: R::Int::splat(JUMP_GRACE_MS) }),
+            contact: Group::new(Contact { normal: V3::up(), age: R::Int::splat(rules.fresh_age) }),
             jetting: Group::new(off),
             energy: Group::new(R::splat(rules.max_energy)),
             damage: Group::new(R::zero()),
@@ -189,7 +191,8 @@ impl<S: Scene, R: Real> Player<S, R> {
         }
     }
 
-    /// The normal and age of the last jumpable contact; expired where the scene has no such memory.
+    /// The normal and age of the last jumpable contact; expired, in either model, where the scene has no
+    /// such memory.
     #[inline(always)]
     #[must_use]
     pub fn contact(&self) -> Contact<R> {

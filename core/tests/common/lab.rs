@@ -5,7 +5,7 @@ use discjump_core::input::Input;
 use discjump_core::movement::Sliced;
 use discjump_core::player::{Contact, Player};
 use discjump_core::real::{Scalar, V3};
-use discjump_core::rules::{Physics, Rules};
+use discjump_core::rules::{Model, Physics, Rules};
 use discjump_core::scene::{Has, Sandbox, Scene};
 use discjump_core::terrain::{Heightfield, Maps};
 use discjump_core::tick::tick;
@@ -24,7 +24,7 @@ impl<T: Scalar> Lab<T> {
 
     pub fn with(terrain: &Heightfield, physics: Physics) -> Self {
         let maps = Maps::new(core::slice::from_ref(terrain)).unwrap();
-        Self { maps, rules: Rules::new(&LIGHT, false, 32, physics) }
+        Self { maps, rules: Rules::new(Model::Article, &LIGHT, false, 32, physics) }
     }
 
     pub fn player<S: Scene>(&self, position: [f64; 3], velocity: [f64; 3]) -> Player<S, T> {

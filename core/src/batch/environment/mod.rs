@@ -55,7 +55,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     fn boxed(setup: SkiEnvironments) -> Result<Box<dyn Environments>, InputError> {
         let threads = resolve_threads(setup.threads)?;
         let armor = find_armor(&setup.armor)?;
-        let rules = Rules::<R::Scalar>::new(armor, setup.energy_pack, setup.tick_ms, setup.physics);
+        let rules = Rules::new(M::MODEL, armor, setup.energy_pack, setup.tick_ms, setup.physics);
         let row = setup.observation.size::<S>();
         let idle = Block {
             player: Player::new(&rules, V3::zero(), R::Int::splat(0)),

@@ -3,7 +3,7 @@
 use super::super::simulator::{MAX_PLAYERS, check_tick, find_armor};
 use super::{Autoreset, Batch, Environments};
 use crate::error::{InputError, refuse};
-use crate::movement::Sliced;
+use crate::movement::{Engine, Fast, Sliced, Swept};
 use crate::observe::SkiObservation;
 use crate::rules::Physics;
 use crate::scene::Ski;
@@ -22,7 +22,7 @@ pub struct SkiEnvironments {
     pub areas: Vec<Area>,
     /// How many environments.
     pub count: usize,
-    /// Tier: "authentic" or "reference".
+    /// Tier: "reference", "authentic", "swept", "fast" or "engine".
     pub fidelity: String,
     /// Armor: "light", "medium" or "heavy".
     pub armor: String,
@@ -52,9 +52,14 @@ impl SkiEnvironments {
     pub fn build(self) -> Result<Box<dyn Environments>, InputError> {
         self.check()?;
         match self.fidelity.as_str() {
-            "authentic" => Batch::<Ski, Sliced, f32>::boxed(self),
             "reference" => Batch::<Ski, Sliced, f64>::boxed(self),
-            other => refuse!("fidelity: expected \"authentic\" or \"reference\", got {other:?}"),
+            "authentic" => Batch::<Ski, Sliced, f32>::boxed(self),
+            "swept" => Batch::<Ski, Swept, f32>::boxed(self),
+            "fast" => Batch::<Ski, Fast, f32>::boxed(self),
+            "engine" => Batch::<Ski, Engine, f32>::boxed(self),
+            other => refuse!(
+                "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\" or \"engine\", got {other:?}"
+            ),
         }
     }
 

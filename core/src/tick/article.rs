@@ -1,4 +1,4 @@
-//! One tick of one player: a pure function of player, input and world (docs/physics.md, 3.1 and 12).
+//! The order of a tick in the article's model (docs/physics.md, section 3.1).
 
 use crate::armor;
 use crate::forces;
@@ -9,48 +9,9 @@ use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 
-/// Largest view pitch, radians (88 degrees).
-pub const MAX_PITCH: f64 = 1.535_889_741_755_009_3;
-
-/// An angle in radians brought into [-pi, pi).
+/// Forces and the move.
 #[inline(always)]
-pub fn wrap_angle<R: Real>(angle: R) -> R {
-    let pi = R::lit(core::f64::consts::PI);
-    let turn = R::lit(2.0 * core::f64::consts::PI);
-    let turns = ((angle + pi) / turn).floor_int();
-    let wrapped = angle - R::from_int(turns) * turn;
-    let wrapped = R::select(pi.le(wrapped), wrapped - turn, wrapped);
-    // The interval's ends are those of the tier: in f32 -pi itself is rounded outwards, by 9e-8.
-    wrapped.max(-pi)
-}
-
-/// The player one tick later. The position is not yet wrapped back into its tile, so that the
-/// segment from the old position to the new one can be tested; see
-/// [`Surface::wrap`](crate::terrain::Surface::wrap).
-#[inline(always)]
-pub fn tick<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
-    before: &Player<S, R>,
-    input: &Input<R>,
-    world: &W,
-    rules: &Rules<R::Scalar>,
-) -> Player<S, R> {
-    let mut p = *before;
-    look(&mut p, input, rules);
-    act::<S, M, R, W>(&mut p, input, world, rules);
-    p
-}
-
-/// Turns the view, which comes before the trigger and the move.
-#[inline(always)]
-pub fn look<S: Scene, R: Real>(p: &mut Player<S, R>, input: &Input<R>, rules: &Rules<R::Scalar>) {
-    p.yaw = wrap_angle(p.yaw + input.turn * R::splat(rules.dt));
-    let top = R::lit(MAX_PITCH);
-    p.pitch = input.pitch.min(top).max(-top);
-}
-
-/// Everything of a tick that comes after the view and the trigger: forces and the move.
-#[inline(always)]
-pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
+pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     p: &mut Player<S, R>,
     input: &Input<R>,
     world: &W,
@@ -77,7 +38,9 @@ pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
 
     let mut gain = V3::new(R::zero(), R::zero(), R::splat(rules.fall));
     if S::Jet::<R>::MODELED {
-        let thrust = forces::jet(p.velocity, &wish, &contact, rules);
+        // The age is the one after this tick's jump: a jump turns the jets sideways at once.
+        let recent = contact.age.lt(R::Int::splat(armor::JUMP_GRACE_MS));
+        let thrust = forces::jet(p.velocity, &wish, recent, rules);
         gain = V3::select(burn, gain + thrust, gain);
     }
     if S::Energy::<R>::MODELED {
@@ -86,6 +49,7 @@ pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
         p.energy.set(left.max(R::zero()).min(R::splat(rules.max_energy)));
     }
     p.jetting.set(burn);
+    let before = p.velocity;
     p.velocity = p.velocity + gain;
 
     let (walk, reached) = forces::friction(p.velocity, &wish, p.friction, rules);
@@ -95,5 +59,5 @@ pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     contact.age = (contact.age + R::Int::splat(rules.tick_ms)).clamp(0, OLDEST_MS);
     p.contact.set(contact);
 
-    M::advance(p, world, rules);
+    M::advance(p, before, world, rules);
 }
