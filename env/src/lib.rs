@@ -3,12 +3,14 @@
 //! * `terrain`: `Terrain`
 //! * `simulator`: `Simulator`, bodies without a task
 //! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
 mod errors;
+mod physics;
 mod pools;
 mod simulator;
 mod ski;

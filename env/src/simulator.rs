@@ -2,9 +2,9 @@
 
 use crate::arrays::{dtype, structured};
 use crate::errors::refused;
+use crate::physics::PhysicsArgument;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
-use discjump_core::rules::Physics;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -18,15 +18,6 @@ const INPUT_BYTES: usize = size_of::<RawInput>();
 #[pyclass(module = "discjump._native")]
 pub struct Simulator {
     bodies: Box<dyn Bodies>,
-}
-
-/// The switches of a `discjump.Physics`.
-pub fn physics(value: Option<(bool, bool)>) -> Physics {
-    value.map_or_else(Physics::default, |(ski_bug, hysteresis)| Physics {
-        ski_bug: Some(ski_bug),
-        hysteresis,
-        ..Physics::default()
-    })
 }
 
 impl Simulator {
@@ -53,7 +44,7 @@ impl Simulator {
         armor: &str,
         energy_pack: bool,
         fidelity: &str,
-        physics: Option<(bool, bool)>,
+        physics: PhysicsArgument,
         tick_ms: u32,
         threads: Option<usize>,
     ) -> PyResult<Self> {
@@ -64,7 +55,7 @@ impl Simulator {
             armor,
             energy_pack,
             fidelity,
-            physics: self::physics(physics),
+            physics: physics.switches()?,
             tick_ms,
             threads,
         };

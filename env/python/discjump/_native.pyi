@@ -6,6 +6,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from discjump.simulator import Physics
+
 __all__ = ["Simulator", "SkiBatch", "Terrain"]
 
 @final
@@ -53,7 +55,7 @@ class Simulator:
         armor: str,
         energy_pack: bool,
         fidelity: str,
-        physics: tuple[bool, bool] | None,
+        physics: Physics,
         tick_ms: int,
         threads: int | None,
     ) -> Simulator: ...
@@ -82,7 +84,7 @@ class SkiBatch:
         fidelity: str,
         armor: str,
         energy_pack: bool,
-        physics: tuple[bool, bool] | None,
+        physics: Physics,
         tick_ms: int,
         frame_skip: int,
         actions: str,

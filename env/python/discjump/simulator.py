@@ -32,14 +32,45 @@ ARMORS = ("light", "medium", "heavy")
 FIDELITIES = ("authentic", "reference")
 
 
+_CHOICES = {
+    "knockback": ("tribes", "basic", "linear_boosted"),
+    "cutoff": ("engine", "radius"),
+    "accel": ("nominal", "none", "mass"),
+    "disc": ("surface", "engine"),
+}
+
+
 @dataclass(frozen=True)
 class Physics:
     """Switches of the movement model (core/docs/physics.md, section 12)."""
 
-    #: Whether the fourth contact of a tick stops the player dead.
-    ski_bug: bool = False
+    #: Whether the last contact that a tick allows (the fourth; in `engine` the third) stops the player
+    #: dead. None: in `engine` it does, in the other tiers it does not.
+    ski_bug: bool | None = None
     #: Whether jets go out at an energy of 1 and light again at 5. Without it an empty tank gives free thrust.
     hysteresis: bool = True
+    #: `swept` only: whether a contact at once no longer pushes the player out of the surface.
+    clamp_fixup: bool = False
+    #: `swept` only: whether the move that redoes the last slice is swept as well.
+    fixup_swept: bool = False
+    #: How the push of an explosion falls off: "tribes", "basic" or "linear_boosted".
+    knockback: str = "tribes"
+    #: How far an explosion reaches: "engine" (radius and smallest box side) or "radius".
+    cutoff: str = "engine"
+    #: How discs accelerate to 80 m/s: "nominal" (5 m/s^2), "none" or "mass" (2.5 m/s^2).
+    accel: str = "nominal"
+    #: How discs fly: "surface" (swept, bursting where they meet something) or "engine" (the 1998 clock of
+    #: 33 ms, unaccelerated, bursting at the place before).
+    disc: str = "surface"
+
+    def __post_init__(self) -> None:
+        """Check the types and names."""
+        if self.ski_bug is not None:
+            _check.flag("ski_bug", self.ski_bug)
+        for name in ("hysteresis", "clamp_fixup", "fixup_swept"):
+            _check.flag(name, getattr(self, name))
+        for name, choices in _CHOICES.items():
+            _check.choice(name, getattr(self, name), choices)
 
 
 class Simulator:
@@ -99,7 +130,7 @@ class Simulator:
             _check.choice("armor", armor, ARMORS),
             _check.flag("energy_pack", energy_pack),
             _check.choice("fidelity", fidelity, FIDELITIES),
-            (switches.ski_bug, switches.hysteresis),
+            switches,
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),
         )
