@@ -13,6 +13,17 @@ pub const BOOST: f64 = 26.0 / 11.0;
 /// points lie a hair below.
 pub const COVERED_DEPTH: f64 = 0.05;
 
+/// Which of an armor's factors a damage takes (section 2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Harm {
+    /// Explosions: discs.
+    Explosion,
+    /// Shrapnel: grenades.
+    Shrapnel,
+    /// Mortar shells.
+    Mortar,
+}
+
 /// What explodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Explosive<T> {
@@ -22,6 +33,8 @@ pub struct Explosive<T> {
     pub radius: T,
     /// Impulse at a power of 1, mass units times m/s.
     pub kick: T,
+    /// Which of the armor's factors its damage takes.
+    pub harm: Harm,
 }
 
 impl Explosive<f64> {
@@ -29,7 +42,7 @@ impl Explosive<f64> {
     #[must_use]
     pub fn rounded<T: Scalar>(&self) -> Explosive<T> {
         let t = T::from_f64;
-        Explosive { damage: t(self.damage), radius: t(self.radius), kick: t(self.kick) }
+        Explosive { damage: t(self.damage), radius: t(self.radius), kick: t(self.kick), harm: self.harm }
     }
 }
 
@@ -104,7 +117,12 @@ pub fn strike<S: Scene, R: Real>(
 
     if S::Damage::<R>::MODELED {
         let share = damage_share(d0, min_box, radius, physics.cutoff);
-        let scale = R::splat(explosive.damage) * R::splat(rules.explosion_scale);
+        let factor = match explosive.harm {
+            Harm::Explosion => rules.explosion_scale,
+            Harm::Shrapnel => rules.shrapnel_scale,
+            Harm::Mortar => rules.mortar_scale,
+        };
+        let scale = R::splat(explosive.damage) * R::splat(factor);
         let damage = p.damage.get(R::zero());
         p.damage.set(R::select(meets, damage + scale * share * coverage, damage));
     }

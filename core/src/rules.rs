@@ -174,6 +174,10 @@ pub struct Rules<T> {
     pub mass: T,
     /// What the armor makes of an explosion's damage.
     pub explosion_scale: T,
+    /// What it makes of a grenade's.
+    pub shrapnel_scale: T,
+    /// What it makes of a mortar shell's.
+    pub mortar_scale: T,
     /// Switches.
     pub physics: Physics,
 }
@@ -212,6 +216,8 @@ impl<T: Scalar> Rules<T> {
             height: t(armor.height),
             mass: t(armor.mass),
             explosion_scale: t(armor.explosion_scale),
+            shrapnel_scale: t(armor.shrapnel_scale),
+            mortar_scale: t(armor.mortar_scale),
             physics,
         }
     }

@@ -1,6 +1,6 @@
 //! The launchers: one table of constants (docs/physics.md, section 7 and the appendix).
 
-use crate::blast::Explosive;
+use crate::blast::{Explosive, Harm};
 
 /// How a projectile moves and when it bursts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ const AMMO: i32 = 15;
 /// Disc launcher: fire, reload and spin-up.
 pub const DISC: Weapon = Weapon {
     name: "disc",
-    explosive: Explosive { damage: 0.5, radius: 7.5, kick: 150.0 },
+    explosive: Explosive { damage: 0.5, radius: 7.5, kick: 150.0, harm: Harm::Explosion },
     speed: 65.0,
     inherit: 0.5,
     states_ms: [1250, 250, 250],
@@ -63,10 +63,11 @@ pub const DISC: Weapon = Weapon {
     motion: Motion::Disc { terminal: 80.0, acceleration: 5.0, mass: 2.0 },
 };
 
-/// Grenade launcher: fire and reload. Its speed is sqrt(150 * 20).
+/// Grenade launcher: fire and reload. Its speed is sqrt(150 * 20). The sources do not say which damage a
+/// grenade does: here it is shrapnel, which nothing else would be.
 pub const GRENADE: Weapon = Weapon {
     name: "grenade",
-    explosive: Explosive { damage: 0.4, radius: 15.0, kick: 150.0 },
+    explosive: Explosive { damage: 0.4, radius: 15.0, kick: 150.0, harm: Harm::Shrapnel },
     speed: 54.772_255_750_516_61,
     inherit: 0.5,
     states_ms: [500, 500, 0],
@@ -78,7 +79,7 @@ pub const GRENADE: Weapon = Weapon {
 /// Mortar: fire and reload. Its speed is sqrt(275 * 20).
 pub const MORTAR: Weapon = Weapon {
     name: "mortar",
-    explosive: Explosive { damage: 1.0, radius: 20.0, kick: 250.0 },
+    explosive: Explosive { damage: 1.0, radius: 20.0, kick: 250.0, harm: Harm::Mortar },
     speed: 74.161_984_870_956_63,
     inherit: 0.5,
     states_ms: [2000, 500, 0],
