@@ -1,6 +1,6 @@
 //! The movement of Tribes 1 (skiing, jetting, disc jumping) as a batched simulator.
 //!
-//! Nothing here knows of Python, and nothing but terrain loading touches a file. Dependencies point
+//! Nothing here knows of Python, and nothing but loading touches a file. Dependencies point
 //! down only; a lower room that used an upper one could no longer be tested, or vectorised, alone:
 //!
 //! ```text
@@ -9,7 +9,7 @@
 //!     tick                  one player, one tick: a pure function
 //!       movement, forces    how he moves, and what pushes him
 //!       flight, blast       how he fires, how projectiles fly, what their explosions do
-//!         terrain           heights, normals, sweeps; generated maps and their statistics
+//!         terrain, solids   heights, normals, sweeps; generated maps and their statistics; bases, bridges, towers
 //!           player, scene   his state, and which parts of it a scene models
 //!           arms            his launcher and its projectiles: constants and state
 //!             armor, rules  constants
@@ -34,6 +34,7 @@ pub mod random;
 pub mod real;
 pub mod rules;
 pub mod scene;
+pub mod solids;
 pub mod task;
 pub mod terrain;
 pub mod tick;
