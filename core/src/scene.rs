@@ -20,6 +20,8 @@ pub trait Group<V: Copy>: Copy + Debug + Send + Sync + 'static {
     /// The value in place, for groups too large to be copied about; none where the scene does not
     /// model it.
     fn as_mut(&mut self) -> Option<&mut V>;
+    /// The value in place, to read.
+    fn as_ref(&self) -> Option<&V>;
 }
 
 /// A group that the scene models.
@@ -48,6 +50,10 @@ impl<V: Copy + Debug + Send + Sync + 'static> Group<V> for Has<V> {
     fn as_mut(&mut self) -> Option<&mut V> {
         Some(&mut self.0)
     }
+    #[inline(always)]
+    fn as_ref(&self) -> Option<&V> {
+        Some(&self.0)
+    }
 }
 
 impl<V: Copy> Group<V> for Absent {
@@ -66,6 +72,34 @@ impl<V: Copy> Group<V> for Absent {
     fn as_mut(&mut self) -> Option<&mut V> {
         None
     }
+    #[inline(always)]
+    fn as_ref(&self) -> Option<&V> {
+        None
+    }
+}
+
+/// Every feature that a scene may model. `flags` belong to tasks; no scene has them yet.
+pub const FEATURES: [&str; 9] =
+    ["jump", "jet", "energy", "landing_damage", "discs", "blast", "solids", "flags", "bump_limits"];
+
+/// A scene by name, and its lists.
+#[derive(Clone, Debug)]
+pub struct Listed {
+    /// The public name.
+    pub name: &'static str,
+    /// See [`Scene::models`].
+    pub models: Vec<&'static str>,
+    /// See [`Scene::leaves_out`].
+    pub leaves_out: Vec<&'static str>,
+}
+
+/// Every scene.
+#[must_use]
+pub fn scenes() -> [Listed; 4] {
+    fn listed<S: Scene>() -> Listed {
+        Listed { name: S::NAME, models: S::models(), leaves_out: S::leaves_out() }
+    }
+    [listed::<Ski>(), listed::<Sandbox>(), listed::<DiscJump>(), listed::<Mission>()]
 }
 
 /// The list of what a scene models.
@@ -107,6 +141,13 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
         .into_iter()
         .filter_map(|(modeled, name)| modeled.then_some(name))
         .collect()
+    }
+
+    /// The features that it leaves out: not stored, not computed, not observed.
+    #[must_use]
+    fn leaves_out() -> Vec<&'static str> {
+        let models = Self::models();
+        FEATURES.into_iter().filter(|feature| !models.contains(feature)).collect()
     }
 }
 

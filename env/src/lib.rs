@@ -1,6 +1,7 @@
 //! Python bindings of `discjump-core`: thin, typed in `_native.pyi`, re-exported by the package.
 //!
 //! * `terrain`: `Terrain`
+//! * `solids`: what stands on one
 //! * `simulator`: `Simulator`, bodies without a task
 //! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
 //! * `physics`: the switches of a `Physics`
@@ -14,6 +15,7 @@ mod physics;
 mod pools;
 mod simulator;
 mod ski;
+mod solids;
 mod terrain;
 
 use pyo3::prelude::*;
@@ -22,9 +24,11 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::simulator::Simulator;
+    use crate::simulator::{Simulator, scenes};
     #[pymodule_export]
     use crate::ski::SkiBatch;
+    #[pymodule_export]
+    use crate::solids::load_mesh;
     #[pymodule_export]
     use crate::terrain::Terrain;
 }

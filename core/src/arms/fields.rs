@@ -6,22 +6,23 @@ use crate::real::Scalar;
 
 /// Walks a launcher's fields: its own, then those of every slot in turn.
 pub fn visit<T: Scalar>(arms: &mut Arms<T>, v: &mut impl FieldVisitor<T>) {
-    v.int("cooldown", &mut arms.cooldown);
-    v.int("ammo", &mut arms.ammo);
-    arms.slots.iter_mut().for_each(|slot| visit_projectile(slot, v, true));
+    visit_launcher(arms, v);
+    arms.slots.iter_mut().for_each(|slot| visit_projectile(slot, v));
 }
 
-/// Walks a projectile's fields. `place` is where it is (local position, tile): callers that give
-/// positions another form leave it out.
-pub fn visit_projectile<T: Scalar>(p: &mut Projectile<T>, v: &mut impl FieldVisitor<T>, place: bool) {
+/// Walks the fields of the launcher itself.
+pub fn visit_launcher<T: Scalar>(arms: &mut Arms<T>, v: &mut impl FieldVisitor<T>) {
+    v.int("cooldown", &mut arms.cooldown);
+    v.int("ammo", &mut arms.ammo);
+}
+
+fn visit_projectile<T: Scalar>(p: &mut Projectile<T>, v: &mut impl FieldVisitor<T>) {
     v.int("phase", &mut p.phase);
     v.int("age", &mut p.age);
     v.int("clock", &mut p.clock);
-    if place {
-        visit_vector(v, "local_position", &mut p.position);
-        v.int("tile_x", &mut p.tile_x);
-        v.int("tile_y", &mut p.tile_y);
-    }
+    visit_vector(v, "local_position", &mut p.position);
+    v.int("tile_x", &mut p.tile_x);
+    v.int("tile_y", &mut p.tile_y);
     visit_vector(v, "velocity", &mut p.velocity);
     visit_vector(v, "axis", &mut p.axis);
 }

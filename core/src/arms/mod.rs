@@ -6,7 +6,7 @@ mod fields;
 mod weapons;
 
 pub use arsenal::{Arsenal, Flight};
-pub use fields::{visit, visit_projectile};
+pub use fields::{visit, visit_launcher};
 pub use weapons::{DISC, GRENADE, MORTAR, MUZZLE, Motion, WEAPONS, Weapon};
 
 use crate::player::Place;
@@ -146,6 +146,14 @@ impl<R: Real> Arms<R> {
     pub fn new(arsenal: &Arsenal<R::Scalar>) -> Self {
         let (cooldown, ammo) = (R::Int::splat(0), R::Int::splat(arsenal.ammo));
         Self { cooldown, ammo, slots: [Projectile::none(); SLOTS] }
+    }
+
+    /// A launcher that has nothing to fire.
+    #[inline(always)]
+    #[must_use]
+    pub fn empty() -> Self {
+        let zero = R::Int::splat(0);
+        Self { cooldown: zero, ammo: zero, slots: [Projectile::none(); SLOTS] }
     }
 
     /// The launcher in one lane.

@@ -117,7 +117,9 @@ pub fn visit<S: Scene, T: Scalar>(p: &mut Player<S, T>, v: &mut impl FieldVisito
     }
 }
 
-struct Describe(Vec<Field>);
+/// Lists the fields that it visits.
+#[derive(Debug, Default)]
+pub struct Describe(pub Vec<Field>);
 
 impl<T: Scalar> FieldVisitor<T> for Describe {
     fn reals(&mut self, name: &'static str, values: &mut [T]) {
@@ -137,7 +139,7 @@ impl<T: Scalar> FieldVisitor<T> for Describe {
 pub fn fields<S: Scene, T: Scalar>(place: bool) -> Vec<Field> {
     let rules =
         Rules::<T>::new(Model::Article, &crate::armor::LIGHT, false, 32, crate::rules::Physics::default());
-    let mut describe = Describe(Vec::new());
+    let mut describe = Describe::default();
     visit(&mut Player::<S, T>::new(&rules, V3::zero(), 0), &mut describe, place);
     describe.0
 }

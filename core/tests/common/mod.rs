@@ -43,10 +43,14 @@ pub fn world(terrain: &Heightfield, fidelity: &str) -> World {
 pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<'a> {
     SimulatorSetup {
         terrain,
+        solids: None,
         players: 1,
+        players_per_world: 1,
         scene: "sandbox",
         armor: "light",
         energy_pack: false,
+        weapon: "disc",
+        ammo: None,
         fidelity,
         physics: Physics::default(),
         tick_ms: 32,

@@ -1,7 +1,8 @@
 """The movement of Tribes 1 (skiing, jetting, disc jumping), batched for reinforcement learning.
 
     _native     the simulator, compiled from Rust: Terrain, Simulator, SkiBatch
-    simulator   bodies without a task: Simulator, Physics, INPUT
+    simulator   bodies without a task: Simulator, Physics, Scene, INPUT
+    solids      what stands on a terrain: Solid
     terrains    generated terrains, cached
     envs        gymnasium environments; importing discjump registers their ids
     sb3         stable-baselines3 adapter (import discjump.sb3)
@@ -15,11 +16,12 @@ from importlib.metadata import version
 import gymnasium
 
 from discjump._native import Terrain
-from discjump.simulator import INPUT, Physics, Simulator
+from discjump.simulator import INPUT, SCENES, Physics, Scene, Simulator
+from discjump.solids import Solid
 
 __version__ = version("discjump")
 
-__all__ = ["INPUT", "Physics", "Simulator", "Terrain", "__version__"]
+__all__ = ["INPUT", "SCENES", "Physics", "Scene", "Simulator", "Solid", "Terrain", "__version__"]
 
 # No max_episode_steps: the core ends episodes on exact ticks, and gymnasium's TimeLimit would count twice.
 gymnasium.register(
