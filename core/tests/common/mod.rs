@@ -5,6 +5,7 @@ pub mod crowd;
 pub mod draws;
 pub mod envs;
 pub mod lab;
+pub mod range;
 
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;
@@ -17,6 +18,11 @@ pub fn slope(degrees: f64) -> Heightfield {
     let gradient = -degrees.to_radians().tan();
     let heights = (0..rows * cols).map(|k| gradient * 8.0 * ((k % cols) as f64 - 256.0)).collect();
     Heightfield::new(heights, rows, cols, 8.0, [-2048.0, -16.0], Edge::Clamp).unwrap()
+}
+
+/// Flat ground at height 0, 8 km square.
+pub fn flat() -> Heightfield {
+    Heightfield::new(vec![0.0; 9], 3, 3, 4096.0, [-4096.0, -4096.0], Edge::Clamp).unwrap()
 }
 
 /// Rolling terrain that tiles: hills of 10 m every 256 m and smaller ones between.

@@ -2,8 +2,8 @@
 
 use crate::arrays::{Buffers, Flags, array1, structured};
 use crate::errors::refused;
-use crate::pools::pool;
 use crate::physics::PhysicsArgument;
+use crate::pools::pool;
 use crate::simulator::state_fields;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
