@@ -4,7 +4,7 @@
 use super::lab::Lab;
 use discjump_core::armor::Armor;
 use discjump_core::arms::{Arms, Arsenal, Projectile, Weapon};
-use discjump_core::blast::{coverage_on_terrain, strike};
+use discjump_core::blast::{coverage_on_terrain, seen_from, strike};
 use discjump_core::flight::{fire, fly};
 use discjump_core::input::Input;
 use discjump_core::movement::Sliced;
@@ -95,8 +95,7 @@ impl<T: Scalar> Range<T> {
         fly(&mut self.arms, p.map, &surface, &self.arsenal);
         let bursts: Vec<_> = self.arms.slots.into_iter().filter(|slot| slot.burst()).collect();
         for blast in &bursts {
-            let (x, y) = surface.tiles_apart::<T>(blast.tile_x - p.tile_x, blast.tile_y - p.tile_y);
-            let at = blast.position + V3::new(x, y, T::zero());
+            let at = seen_from(p, &blast.place(p.map), &surface);
             let coverage = coverage_on_terrain(&surface, p.map, blast.position);
             strike(p, at, true, coverage, &self.arsenal.explosive, rules);
         }

@@ -8,7 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from discjump.simulator import Physics
 
-__all__ = ["Simulator", "SkiBatch", "Terrain"]
+__all__ = ["Simulator", "SkiBatch", "Terrain", "blast_falloff"]
+
+def blast_falloff(
+    distance: NDArray[np.float64], formula: str, radius: float, min_box: float, cutoff: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 @final
 class Terrain:
