@@ -7,9 +7,8 @@ use common::lab::*;
 use common::range::*;
 use common::*;
 use discjump_core::armor::LIGHT;
-use discjump_core::arms::{Arsenal, DISC, FREE, SLOTS, WEAPONS};
+use discjump_core::arms::{Arsenal, DISC, FREE};
 use discjump_core::blast::coverage_on_terrain;
-use discjump_core::flight::fire;
 use discjump_core::input::Input;
 use discjump_core::real::Scalar;
 use discjump_core::rules::{Acceleration, DiscFlight, Physics};
@@ -110,39 +109,6 @@ fn a_trigger_pulled_too_early_is_forgotten_and_one_pulled_late_fires_at_once() {
     assert_eq!(range.arms.ammo, 14);
     range.tick(&trigger(0.0));
     assert_eq!((range.arms.ammo, range.arms.cooldown), (13, 56));
-}
-
-/// Eight slots are enough for every launcher at every tick length: a projectile is gone before its slot's
-/// turn comes again.
-#[test]
-fn slots_suffice_at_every_tick_length() {
-    let ticks = |ms: u32, tick: u32| (f64::from(ms) / f64::from(tick)).ceil() as u32;
-    for weapon in WEAPONS {
-        let mut most = 0;
-        for tick in 1..=1000 {
-            let cycle: u32 = weapon.states_ms.iter().map(|&ms| ticks(ms, tick)).sum();
-            let life = ticks(weapon.life_ms, tick);
-            let arsenal = Arsenal::<f32>::new(weapon, tick, &Physics::default());
-            assert_eq!((arsenal.cycle as u32, arsenal.life as u32), (cycle, life));
-            most = most.max(life.div_ceil(cycle));
-        }
-        assert!(most as usize <= SLOTS, "{} takes {most}", weapon.name);
-    }
-    // And so it is when the trigger is held: no shot comes late.
-    for weapon in WEAPONS {
-        for tick_ms in [1, 7, 16, 32, 33, 64, 250, 400, 499, 500, 501, 999, 1000] {
-            let mut range = Range::<f32>::new(&flat(), weapon, Physics::default(), tick_ms);
-            range.place([0.0, 0.0, 5000.0], [0.0; 3]);
-            range.aim(0.0, 1.5);
-            range.arms.ammo = 1000;
-            let cycle = range.arsenal.cycle;
-            for tick in 0..(12 * cycle) {
-                fire(&mut range.arms, &range.p, true, &range.arsenal);
-                range.fly();
-                assert_eq!(range.arms.ammo, 999 - tick / cycle, "{} at {tick_ms} ms", weapon.name);
-            }
-        }
-    }
 }
 
 #[test]
