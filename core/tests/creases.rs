@@ -5,19 +5,11 @@
 mod common;
 
 use common::lab::*;
+use common::valley;
 use discjump_core::input::Input;
 use discjump_core::real::Scalar;
 use discjump_core::rules::Physics;
 use discjump_core::scene::Has;
-use discjump_core::terrain::{Edge, Heightfield};
-
-/// A valley along y with faces of so many degrees, lowest at x = 0.
-fn valley(degrees: f64) -> Heightfield {
-    let n = 33;
-    let steep = degrees.to_radians().tan();
-    let heights = (0..n * n).map(|k| steep * 8.0 * ((k % n) as f64 - 16.0).abs()).collect();
-    Heightfield::new(heights, n, n, 8.0, [-128.0, -128.0], Edge::Clamp).unwrap()
-}
 
 /// A player who slides down the eastern face at `speed` in this very tick, with `metres` to go to
 /// the crease, and what the tick makes of him.
