@@ -26,6 +26,14 @@ pub fn flat() -> Heightfield {
     Heightfield::new(vec![0.0; 9], 3, 3, 4096.0, [-4096.0, -4096.0], Edge::Clamp).unwrap()
 }
 
+/// A valley along y with faces of so many degrees, lowest at x = 0.
+pub fn valley(degrees: f64) -> Heightfield {
+    let n = 33;
+    let steep = degrees.to_radians().tan();
+    let heights = (0..n * n).map(|k| steep * 8.0 * ((k % n) as f64 - 16.0).abs()).collect();
+    Heightfield::new(heights, n, n, 8.0, [-128.0, -128.0], Edge::Clamp).unwrap()
+}
+
 /// Rolling terrain that tiles: hills of 10 m every 256 m and smaller ones between.
 pub fn rolling() -> Heightfield {
     let n = 65;
@@ -37,6 +45,21 @@ pub fn rolling() -> Heightfield {
         })
         .collect();
     Heightfield::new(heights, n, n, 8.0, [0.0, 0.0], Edge::Tile).unwrap()
+}
+
+/// The tiers of the article's model.
+pub const ARTICLE: [&str; 5] = ["authentic", "reference", "swept", "fast", "anyway"];
+/// Every tier.
+pub const TIERS: [&str; 6] = ["authentic", "reference", "swept", "fast", "anyway", "engine"];
+
+/// A number of the article's model, or of the engine's.
+pub fn by_model(tier: &str, article: f64, engine: f64) -> f64 {
+    if tier == "engine" { engine } else { article }
+}
+
+#[track_caller]
+pub fn near(what: &str, got: f64, expected: f64, tolerance: f64) {
+    assert!((got - expected).abs() <= tolerance, "{what}: expected {expected} +- {tolerance}, got {got}");
 }
 
 pub struct World {
