@@ -188,8 +188,8 @@ class Simulator:
 
         position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
         crawled, friction, jump_normal (3), jump_age (i4, ms; ticks in `engine`), bump_limits (i4, ticks that
-        ended at the bump limit), cooldown (i4, ticks until the launcher can fire), ammo (i4). Numbers are f8
-        in `reference`, else f4; fields of what the scene does not model are absent.
+        ended at the bump limit), cooldown (i4, 56 after the tick of a disc's shot; 1 and 0 can fire), ammo
+        (i4). Numbers are f8 in `reference`, else f4; fields of what the scene does not model are absent.
         """
         return self._native.state_dtype
 
