@@ -21,9 +21,9 @@ pub struct Simulator {
 }
 
 /// The switches of a `discjump.Physics`.
-pub fn physics(value: Option<(bool, bool)>) -> Physics {
+pub fn physics(value: Option<(Option<bool>, bool)>) -> Physics {
     value.map_or_else(Physics::default, |(ski_bug, hysteresis)| Physics {
-        ski_bug: Some(ski_bug),
+        ski_bug,
         hysteresis,
         ..Physics::default()
     })
@@ -53,7 +53,7 @@ impl Simulator {
         armor: &str,
         energy_pack: bool,
         fidelity: &str,
-        physics: Option<(bool, bool)>,
+        physics: Option<(Option<bool>, bool)>,
         tick_ms: u32,
         threads: Option<usize>,
     ) -> PyResult<Self> {

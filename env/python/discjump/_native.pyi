@@ -53,7 +53,7 @@ class Simulator:
         armor: str,
         energy_pack: bool,
         fidelity: str,
-        physics: tuple[bool, bool] | None,
+        physics: tuple[bool | None, bool] | None,
         tick_ms: int,
         threads: int | None,
     ) -> Simulator: ...
@@ -82,7 +82,7 @@ class SkiBatch:
         fidelity: str,
         armor: str,
         energy_pack: bool,
-        physics: tuple[bool, bool] | None,
+        physics: tuple[bool | None, bool] | None,
         tick_ms: int,
         frame_skip: int,
         actions: str,

@@ -29,15 +29,19 @@ INPUT = np.dtype(
 
 SCENES = ("ski", "sandbox")
 ARMORS = ("light", "medium", "heavy")
-FIDELITIES = ("authentic", "reference")
+#: Fidelity tiers for playing and training (core/docs/tiers.md says what each does, drops and costs).
+FIDELITIES = ("reference", "authentic", "swept", "fast", "engine")
+#: Those of a `Simulator`: also the literal reading that tunnels, to be measured and not to be played.
+SIMULATOR_FIDELITIES = (*FIDELITIES, "anyway")
 
 
 @dataclass(frozen=True)
 class Physics:
     """Switches of the movement model (core/docs/physics.md, section 12)."""
 
-    #: Whether the fourth contact of a tick stops the player dead.
-    ski_bug: bool = False
+    #: Whether the last contact that a tick allows (the fourth, in `engine` the third) stops the player dead;
+    #: None: in `engine` it does, elsewhere not. `fast` never gets there.
+    ski_bug: bool | None = None
     #: Whether jets go out at an energy of 1 and light again at 5. Without it an empty tank gives free thrust.
     hysteresis: bool = True
 
@@ -78,7 +82,7 @@ class Simulator:
             scene: "ski" or "sandbox".
             armor: "light", "medium" or "heavy".
             energy_pack: whether they wear one: 3 energy/s more.
-            fidelity: "authentic" (float32) or "reference" (float64).
+            fidelity: "reference" (float64), or in float32 "authentic", "swept", "fast", "engine" or "anyway".
             physics: switches of the movement model.
             tick_ms: tick length, 1 to 1000 ms; the game's is 32.
             threads: 1 to 256; None for one per core. The bits do not depend on it.
@@ -98,7 +102,7 @@ class Simulator:
             _check.choice("scene", scene, SCENES),
             _check.choice("armor", armor, ARMORS),
             _check.flag("energy_pack", energy_pack),
-            _check.choice("fidelity", fidelity, FIDELITIES),
+            _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
             (switches.ski_bug, switches.hysteresis),
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),
@@ -124,8 +128,8 @@ class Simulator:
         """The structured dtype of a state.
 
         position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
-        crawled, friction, jump_normal (3), jump_age (i4, ms). Numbers are f8 in `reference`, else f4;
-        fields of what the scene does not model are absent.
+        crawled, friction, jump_normal (3), jump_age (i4, ms; in `engine` ticks). Numbers are f8 in
+        `reference`, else f4; fields of what the scene does not model are absent.
         """
         return self._native.state_dtype
 

@@ -54,7 +54,7 @@ impl SkiBatch {
         fidelity: String,
         armor: String,
         energy_pack: bool,
-        physics: Option<(bool, bool)>,
+        physics: Option<(Option<bool>, bool)>,
         tick_ms: u32,
         frame_skip: u32,
         actions: &str,
