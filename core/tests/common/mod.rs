@@ -5,6 +5,8 @@ pub mod crowd;
 pub mod draws;
 pub mod envs;
 pub mod lab;
+pub mod random;
+pub mod solids;
 
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;
