@@ -1,5 +1,6 @@
 //! A box moving along a straight path against one triangle: swept separating axes.
 
+use core::cmp::Ordering;
 use glam::DVec3;
 
 /// How far box and triangle must come to overlap sideways, along the face, before a contact counts, m.
@@ -11,6 +12,15 @@ pub const SKIN: f64 = 1e-4;
 /// Contacts within this of each other, along a normal or in metres of path, count as at once, m. Rounding of
 /// coordinates of 1,000 km is a hundredth of it.
 pub(super) const AT_ONCE: f64 = 1e-7;
+
+/// How far the box may reach under a triangle's plane where an axis within 60 degrees of its normal parts the two
+/// last, for the face to count all the same, m. A corner that comes down within a skin of the edge between two faces,
+/// and slides over it, meets the second one that deep.
+const SEAM: f64 = 3.0 * SKIN;
+
+/// Overlaps at the start up to this deep are contacts like any other, m: what rounding leaves of a touch. Of deeper ones
+/// only one counts at a time ([`Motion::buried`]), else two that press from opposite sides would hold the box for ever.
+const TOUCH: f64 = 1e-3;
 
 /// Squared sine of the angle below which a triangle's edge and a box's edge count as parallel. Their cross
 /// product then says nothing that the other axes do not say to within 3 micrometres on a box's edge.
@@ -59,8 +69,7 @@ pub(super) struct Contact {
 
 impl Motion {
     /// The box's first contact with a triangle: `None` for a path that leaves it, runs along it or only just
-    /// reaches it. A box that overlaps the triangle at the start touches it there, unless it moves out the
-    /// shortest way, whichever side of the face that leads to.
+    /// reaches it, and for a triangle that the box overlaps by more than a touch at the start.
     pub fn meets(&self, triangle: &Triangle) -> Option<Contact> {
         if self.path.dot(triangle.normal) >= 0.0 {
             return None;
@@ -70,7 +79,18 @@ impl Motion {
 
     /// Whether the box overlaps a triangle where it is.
     pub fn overlaps(&self, triangle: &Triangle) -> bool {
-        Self { path: DVec3::ZERO, ..*self }.axes(triangle).is_some()
+        self.still().axes(triangle).is_some()
+    }
+
+    /// How deep the box is under the face of a triangle that it overlaps where it is by more than a touch.
+    pub fn buried(&self, triangle: &Triangle) -> Option<f64> {
+        self.still().axes(triangle).filter(|axes| axes.shallowest.depth > TOUCH)?;
+        let normal = triangle.normal;
+        Some((triangle.corners[0] - self.centre).dot(normal) + self.half.dot(normal.abs()))
+    }
+
+    fn still(&self) -> Self {
+        Self { path: DVec3::ZERO, ..*self }
     }
 
     /// All axes; `None` as soon as one parts box and triangle all along the path.
@@ -174,27 +194,36 @@ impl Axes {
             }
         }
         let (depth, out) = if -low < high { (-low, -axis) } else { (high, axis) };
-        let margin = if kind == self.shallowest.kind { 0.0 } else { AT_ONCE };
-        let ahead = if kind < self.shallowest.kind { depth - margin } else { depth + margin };
-        if ahead < self.shallowest.depth {
+        let margin = match kind.cmp(&self.shallowest.kind) {
+            Ordering::Less => -self.margin(kind, self.shallowest.out),
+            Ordering::Equal => 0.0,
+            Ordering::Greater => self.margin(self.shallowest.kind, out),
+        };
+        if depth + margin < self.shallowest.depth {
             self.shallowest = Overlap { depth, kind, out };
         }
         (self.from <= self.to).then_some(())
     }
 
+    /// How much deeper along an axis of a kind still counts as at once with `other`.
+    fn margin(&self, kind: Kind, other: DVec3) -> f64 {
+        if kind == Kind::Face && other.dot(self.normal) > 0.5 { SEAM } else { AT_ONCE }
+    }
+
     /// The contact, when every axis overlaps at some time.
     fn contact(&self) -> Option<Contact> {
-        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
-        if self.from <= 0.0 && last < 0.0 {
-            let Overlap { kind, out, .. } = self.shallowest;
-            return (self.path.dot(out) < 0.0).then_some(Contact { fraction: 0.0, kind, normal: out });
+        let last = self.entries.iter().fold(self.entries[0], |m, e| if e.at > m.at { *e } else { m });
+        if self.from <= 0.0 && last.at < 0.0 {
+            let Overlap { kind, out, depth } = self.shallowest;
+            let deeper = depth <= TOUCH && self.path.dot(out) < 0.0;
+            return deeper.then_some(Contact { fraction: 0.0, kind, normal: out });
         }
         let at_once = |kind: &&Kind| {
             let entry = &self.entries[**kind as usize];
-            entry.speed > 0.0 && (last - entry.at) * entry.speed <= AT_ONCE
+            entry.speed > 0.0 && (last.at - entry.at) * entry.speed <= self.margin(**kind, last.normal)
         };
         let kind = *KINDS.iter().find(at_once)?;
         let normal = self.entries[kind as usize].normal;
-        Some(Contact { fraction: last.max(0.0), kind, normal })
+        Some(Contact { fraction: last.at.max(0.0), kind, normal })
     }
 }

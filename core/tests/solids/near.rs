@@ -25,7 +25,9 @@ fn whatever_a_sweep_meets_is_near() {
             let mut feet = DVec3::new(1200.0 * random.wide(), 1200.0 * random.wide(), 150.0 * random.wide());
             if k % 2 == 0 {
                 let on = corners[random.index(corners.len())];
-                feet = on + 20.0 * DVec3::new(random.wide(), random.wide(), random.wide());
+                feet = on
+                    + 10f64.powf(random.within(-1.0, 1.5))
+                        * DVec3::new(random.wide(), random.wide(), random.wide());
             }
             let path = DVec3::new(random.wide(), random.wide(), random.wide())
                 * 10f64.powf(random.within(-2.0, 2.5));
