@@ -54,6 +54,13 @@ fn overlaps(solids: &Solids, feet: DVec3) -> bool {
     })
 }
 
+/// Worlds are shared by threads.
+#[test]
+fn solids_are_shared() {
+    fn shared<T: Send + Sync>() {}
+    shared::<Solids>();
+}
+
 #[test]
 fn nothing_is_near_where_nothing_stands() {
     let solids = Solids::default();

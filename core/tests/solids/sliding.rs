@@ -191,3 +191,38 @@ fn the_order_of_solids_and_triangles_does_not_matter() {
         assert_eq!(a, b, "{feet:?} {path:?}");
     }
 }
+
+/// Up a ramp and on to the floor that it leads to, whose own side stands hidden in the ramp.
+#[test]
+fn from_a_ramp_on_to_a_floor() {
+    let profile = [(-0.5, 40.3), (0.0, 40.3), (12.0, 36.0), (-0.5, 36.0)];
+    let points = profile.iter().flat_map(|&(y, z)| [DVec3::new(-5.0, y, z), DVec3::new(5.0, y, z)]).collect();
+    let floor = block([-5.0, -20.0, 36.0], [5.0, 0.0, 40.3]);
+    let solids = built(&[floor, Solid::hull("ramp", points, Placement::default())]);
+    let mut random = Random::new(12);
+    for k in 0..400 {
+        let single = |v: DVec3| if k % 2 == 0 { v } else { v.as_vec3().as_dvec3() };
+        let mut feet = DVec3::new(3.0 * random.wide(), 10.0, 40.3);
+        let mut velocity = DVec3::new(0.0, -random.within(3.0, 40.0), -5.0);
+        let mut ticks = 0;
+        while feet.y > -5.0 {
+            ticks += 1;
+            assert!(ticks < 300 && feet.z > 36.0, "{feet:?} {velocity:?}");
+            velocity.z -= 0.64;
+            velocity.y = velocity.y.min(-3.0);
+            let mut left = 0.032;
+            for _ in 0..4 {
+                let path = velocity * left;
+                let Some(hit) = solids.sweep_box(feet, path, 0.5, 2.3) else {
+                    feet = single(feet + path);
+                    break;
+                };
+                assert!(hit.normal.z > 0.9, "{:?} at {feet:?}", hit.normal);
+                feet = single(feet + path * hit.fraction);
+                left *= 1.0 - hit.fraction;
+                velocity += hit.normal * (0.001 - velocity.dot(hit.normal));
+            }
+        }
+        assert!(feet.z > 40.2999, "{feet:?}");
+    }
+}
