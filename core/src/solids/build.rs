@@ -164,12 +164,14 @@ fn append(
     check::faces(&placed, &faces, what)?;
     // A hull may have slivers where points all but lie on an edge; a mesh must not.
     let hull = matches!(solid.shape, Shape::Hull { .. });
-    check::closed(&placed, &faces, what)?;
+    let smooth = check::closed(&placed, &faces, what)?;
     check::on_map(&placed, map, what)?;
     for (k, face) in faces.iter().enumerate() {
         let corners = face.map(|v| placed[v as usize]);
         match check::normal(corners) {
-            Some(normal) => triangles.push(Triangle { corners, normal, solid: number as u32 }),
+            Some(normal) => {
+                triangles.push(Triangle { corners, normal, solid: number as u32, smooth: smooth[k] });
+            }
             None if hull => (),
             None => return Err(check::flat(corners, k, what)),
         }

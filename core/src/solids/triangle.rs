@@ -13,11 +13,6 @@ pub const SKIN: f64 = 1e-4;
 /// coordinates of 1,000 km is a hundredth of it.
 pub(super) const AT_ONCE: f64 = 1e-7;
 
-/// How far the box may reach under a triangle's plane where an axis within 60 degrees of its normal parts the two
-/// last, for the face to count all the same, m. A corner that comes down within a skin of the edge between two faces,
-/// and slides over it, meets the second one that deep.
-const SEAM: f64 = 3.0 * SKIN;
-
 /// Overlaps at the start up to this deep are contacts like any other, m: what rounding leaves of a touch. Of deeper ones
 /// only one counts at a time ([`Motion::buried`]), else two that press from opposite sides would hold the box for ever.
 const TOUCH: f64 = 1e-3;
@@ -34,6 +29,17 @@ pub(super) struct Triangle {
     pub normal: DVec3,
     /// Number of its solid.
     pub solid: u32,
+    /// Where the surface is not sharp.
+    pub smooth: Smooth,
+}
+
+/// Which sides and corners of a triangle no box can meet but flat: where the surface goes on in the same plane or
+/// rises. There the only normal is the face's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Smooth {
+    /// Side k is that from corner k to the next.
+    pub sides: [bool; 3],
+    pub corners: [bool; 3],
 }
 
 /// An upright box in motion.
@@ -141,6 +147,7 @@ struct Overlap {
 struct Axes {
     path: DVec3,
     normal: DVec3,
+    smooth: Smooth,
     /// Corners from the box's centre.
     corners: [DVec3; 3],
     /// The part of the path in which all axes overlap by their skins.
@@ -156,6 +163,7 @@ impl Axes {
         Self {
             path: motion.path,
             normal: triangle.normal,
+            smooth: triangle.smooth,
             corners: triangle.corners.map(|c| c - motion.centre),
             from: f64::NEG_INFINITY,
             to: f64::INFINITY,
@@ -195,9 +203,9 @@ impl Axes {
         }
         let (depth, out) = if -low < high { (-low, -axis) } else { (high, axis) };
         let margin = match kind.cmp(&self.shallowest.kind) {
-            Ordering::Less => -self.margin(kind, self.shallowest.out),
+            Ordering::Less => -AT_ONCE,
             Ordering::Equal => 0.0,
-            Ordering::Greater => self.margin(self.shallowest.kind, out),
+            Ordering::Greater => AT_ONCE,
         };
         if depth + margin < self.shallowest.depth {
             self.shallowest = Overlap { depth, kind, out };
@@ -205,25 +213,39 @@ impl Axes {
         (self.from <= self.to).then_some(())
     }
 
-    /// How much deeper along an axis of a kind still counts as at once with `other`.
-    fn margin(&self, kind: Kind, other: DVec3) -> f64 {
-        if kind == Kind::Face && other.dot(self.normal) > 0.5 { SEAM } else { AT_ONCE }
-    }
-
     /// The contact, when every axis overlaps at some time.
     fn contact(&self) -> Option<Contact> {
-        let last = self.entries.iter().fold(self.entries[0], |m, e| if e.at > m.at { *e } else { m });
-        if self.from <= 0.0 && last.at < 0.0 {
+        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
+        if last < 0.0 {
             let Overlap { kind, out, depth } = self.shallowest;
             let deeper = depth <= TOUCH && self.path.dot(out) < 0.0;
-            return deeper.then_some(Contact { fraction: 0.0, kind, normal: out });
+            return deeper.then(|| self.met(0.0, kind, out));
         }
         let at_once = |kind: &&Kind| {
             let entry = &self.entries[**kind as usize];
-            entry.speed > 0.0 && (last.at - entry.at) * entry.speed <= self.margin(**kind, last.normal)
+            entry.speed > 0.0 && (last - entry.at) * entry.speed <= AT_ONCE
         };
         let kind = *KINDS.iter().find(at_once)?;
-        let normal = self.entries[kind as usize].normal;
-        Some(Contact { fraction: last.at.max(0.0), kind, normal })
+        Some(self.met(last, kind, self.entries[kind as usize].normal))
+    }
+
+    /// A contact along a normal, or along the face's own if that is the only one where the triangle is met.
+    fn met(&self, fraction: f64, kind: Kind, normal: DVec3) -> Contact {
+        let reach = self.corners.map(|corner| corner.dot(normal));
+        let most = reach[0].max(reach[1]).max(reach[2]) - AT_ONCE;
+        let smooth = match reach.map(|at| at >= most) {
+            [true, false, false] => self.smooth.corners[0],
+            [false, true, false] => self.smooth.corners[1],
+            [false, false, true] => self.smooth.corners[2],
+            [true, true, false] => self.smooth.sides[0],
+            [false, true, true] => self.smooth.sides[1],
+            [true, false, true] => self.smooth.sides[2],
+            _ => false,
+        };
+        if smooth {
+            Contact { fraction, kind: Kind::Face, normal: self.normal }
+        } else {
+            Contact { fraction, kind, normal }
+        }
     }
 }

@@ -44,11 +44,8 @@ pub fn deepest(world: &World, upright: &Upright) -> f64 {
     world.faces.iter().map(|corners| depth(upright, corners)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Whether a normal parts the box from the solid, if that is convex, or else from a triangle that it touches.
+/// Whether a normal parts the box from a triangle that it touches.
 pub fn parts(world: &World, upright: &Upright, normal: DVec3, eps: f64) -> bool {
     let apart = |corners: &[DVec3; 3]| corners.iter().all(|&c| upright.under(c, normal) <= eps);
-    if world.convex {
-        return world.faces.iter().all(apart);
-    }
     world.faces.iter().any(|corners| depth(upright, corners) >= -eps && apart(corners))
 }

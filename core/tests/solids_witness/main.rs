@@ -128,7 +128,8 @@ fn compare(world: &World, sweep: &Sweep, count: &mut Count) {
     if turned > 1e-3 {
         count.normals += 1;
         let at = sweep.upright().moved(sweep.path * hit.fraction);
-        assert!(parts(world, &at, hit.normal, 3.0 * SKIN), "{}", what());
+        assert!(parts(world, &at, hit.normal, SKIN), "{}", what());
+        assert!(sweep.judged(world, ours), "{}", what());
     } else {
         count.worst_normal = count.worst_normal.max(turned);
     }

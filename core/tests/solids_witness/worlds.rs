@@ -14,7 +14,6 @@ pub struct World {
     pub solids: Solids,
     /// Corners of every triangle.
     pub faces: Vec<[DVec3; 3]>,
-    pub convex: bool,
     pub parry: (Pose, Box<dyn ParryShape>),
 }
 
@@ -105,5 +104,5 @@ pub fn world(kind: usize, random: &mut Random) -> World {
     };
     let solids = Solids::new(&[Solid::new(name, shape, placement)], &map()).unwrap();
     let faces = solids.faces().map(|(_, corners)| corners).collect();
-    World { name, solids, faces, convex: kind < 3, parry }
+    World { name, solids, faces, parry }
 }
