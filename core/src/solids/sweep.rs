@@ -80,12 +80,15 @@ impl Solids {
         if !motion.is_finite() {
             return None;
         }
-        if let Some(&Triangle { normal, solid, .. }) = self.buried(motion)
-            && motion.path.dot(normal) < 0.0
-        {
+        let Some(&Triangle { normal, solid, .. }) = self.buried(motion) else {
+            return self.first(motion, Motion::meets);
+        };
+        if motion.path.dot(normal) < 0.0 {
             return Some(FaceHit { hit: SolidHit { fraction: 0.0, normal, solid }, face: normal });
         }
-        self.first(motion, Motion::meets)
+        // What else is overlapped must not press him back.
+        let presses = |contact: &Contact| contact.overlaps && contact.normal.dot(normal) < 0.0;
+        self.first(motion, |motion, triangle| motion.meets(triangle).filter(|contact| !presses(contact)))
     }
 
     /// Of the faces that the box overlaps at its start by more than a touch, the one with the shortest way out. It does

@@ -60,6 +60,8 @@ pub(super) enum Kind {
     Face,
     Box,
     Edge,
+    /// The edge between two faces in one plane, where neither of them counted.
+    Seam,
 }
 
 const KINDS: [Kind; 3] = [Kind::Face, Kind::Box, Kind::Edge];
@@ -71,6 +73,8 @@ pub(super) struct Contact {
     pub kind: Kind,
     /// From the triangle towards the box, length 1, against the path.
     pub normal: DVec3,
+    /// Whether the box overlaps the triangle at the start.
+    pub overlaps: bool,
 }
 
 impl Motion {
@@ -215,12 +219,14 @@ impl Axes {
 
     /// The contact, when every axis overlaps at some time.
     fn contact(&self) -> Option<Contact> {
-        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
-        if last < 0.0 {
+        if self.overlaps() {
             let Overlap { kind, out, depth } = self.shallowest;
-            let deeper = depth <= TOUCH && self.path.dot(out) < 0.0;
+            // Deeper by less than a skin is let go, until it is more than a touch: in a gap just as wide as the box its
+            // two sides would stop it in turn for ever.
+            let deeper = depth <= TOUCH && self.path.dot(out) < -SKIN;
             return deeper.then(|| self.met(0.0, kind, out));
         }
+        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
         let at_once = |kind: &&Kind| {
             let entry = &self.entries[**kind as usize];
             entry.speed > 0.0 && (last - entry.at) * entry.speed <= AT_ONCE
@@ -242,10 +248,17 @@ impl Axes {
             [true, false, true] => self.smooth.sides[2],
             _ => false,
         };
-        if smooth {
-            Contact { fraction, kind: Kind::Face, normal: self.normal }
+        let face = &self.entries[Kind::Face as usize];
+        let (kind, normal) = if smooth && (fraction - face.at) * face.speed <= TOUCH {
+            (Kind::Seam, self.normal)
         } else {
-            Contact { fraction, kind, normal }
-        }
+            (kind, normal)
+        };
+        Contact { fraction, kind, normal, overlaps: fraction == 0.0 && self.overlaps() }
+    }
+
+    /// Whether every axis that closes overlapped before the start.
+    fn overlaps(&self) -> bool {
+        self.entries.iter().all(|entry| entry.at < 0.0)
     }
 }

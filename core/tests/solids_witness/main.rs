@@ -156,7 +156,7 @@ fn sweeps_agree_with_parry() {
         println!("{name}: {count:?}");
         assert!(2 * count.hits > count.asked, "too few hits: {count:?}");
         // Grazes within a skin, and ties of normals at corners and edges.
-        assert!(200 * (count.misses + count.times) < count.asked, "{count:?}");
-        assert!(100 * count.normals < count.asked, "{count:?}");
+        assert!(1000 * (count.misses + count.times) < count.asked, "{count:?}");
+        assert!(2000 * count.normals < count.asked, "{count:?}");
     }
 }
