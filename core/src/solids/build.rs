@@ -99,7 +99,7 @@ impl Solids {
 
     /// Whether the box that touches everything up to `reach` metres from a point, along each axis, meets the
     /// bounds of any face: never false where it does, true in some places where it does not. Costs a few
-    /// compares and one load while `reach` is at most [`Near::MARGIN`], more beyond.
+    /// compares and one load while `reach` is at most 16 m, more beyond.
     #[must_use]
     #[inline]
     pub fn near(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
