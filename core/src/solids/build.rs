@@ -99,7 +99,7 @@ impl Solids {
 
     /// Whether the box that touches everything up to `reach` metres from a point, along each axis, meets the
     /// bounds of any face: never false where it does, true in some places where it does not. Costs a few
-    /// compares and one load while `reach` is at most [`Near::MARGIN`], more beyond.
+    /// compares and one load while `reach` is at most 16 m, more beyond.
     #[must_use]
     #[inline]
     pub fn near(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
@@ -164,12 +164,14 @@ fn append(
     check::faces(&placed, &faces, what)?;
     // A hull may have slivers where points all but lie on an edge; a mesh must not.
     let hull = matches!(solid.shape, Shape::Hull { .. });
-    check::closed(&placed, &faces, what)?;
+    let smooth = check::closed(&placed, &faces, what)?;
     check::on_map(&placed, map, what)?;
     for (k, face) in faces.iter().enumerate() {
         let corners = face.map(|v| placed[v as usize]);
         match check::normal(corners) {
-            Some(normal) => triangles.push(Triangle { corners, normal, solid: number as u32 }),
+            Some(normal) => {
+                triangles.push(Triangle { corners, normal, solid: number as u32, smooth: smooth[k] });
+            }
             None if hull => (),
             None => return Err(check::flat(corners, k, what)),
         }

@@ -2,6 +2,7 @@
 
 use super::shapes::THINNEST;
 use super::solid::MAX_COORDINATE;
+use super::triangle::Smooth;
 use crate::error::{InputError, refuse};
 use crate::terrain::Grid;
 use glam::DVec3;
@@ -68,8 +69,9 @@ pub(super) fn on_map(vertices: &[DVec3], map: &Grid, what: &str) -> Result<(), I
 /// One side of a face: its vertices in ascending order, its face, and whether it runs that way.
 type Side = (u32, u32, u32, bool);
 
-/// Refuses holes, faces wound against their neighbours, and shells that are inside out.
-pub(super) fn closed(vertices: &[DVec3], faces: &[[u32; 3]], what: &str) -> Result<(), InputError> {
+/// Refuses holes, faces wound against their neighbours, and shells that are inside out. Tells of each face where it
+/// goes over into its neighbours without a sharp edge.
+pub(super) fn closed(vertices: &[DVec3], faces: &[[u32; 3]], what: &str) -> Result<Vec<Smooth>, InputError> {
     let welded = weld(vertices);
     let mut sides: Vec<Side> = Vec::with_capacity(3 * faces.len());
     for (k, face) in faces.iter().enumerate() {
@@ -83,6 +85,8 @@ pub(super) fn closed(vertices: &[DVec3], faces: &[[u32; 3]], what: &str) -> Resu
     }
     sides.sort_unstable();
     let mut shells = Shells::new(faces.len());
+    let mut smooth = vec![Smooth { sides: [true; 3], corners: [true; 3] }; faces.len()];
+    let mut sharp = vec![false; vertices.len()];
     for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let forward = edge.iter().filter(|side| side.3).count();
         let (a, b, face) = (vertices[edge[0].0 as usize], vertices[edge[0].1 as usize], edge[0].2);
@@ -101,8 +105,35 @@ pub(super) fn closed(vertices: &[DVec3], faces: &[[u32; 3]], what: &str) -> Resu
             );
         }
         edge.iter().for_each(|side| shells.join(face, side.2));
+        if edge.len() > 2 || is_sharp(edge, vertices, faces) {
+            for &(a, b, face, _) in edge {
+                let corners = faces[face as usize].map(|v| welded[v as usize]);
+                let side = (0..3).find(|&k| corners[k] != a && corners[k] != b).map_or(0, |k| (k + 1) % 3);
+                smooth[face as usize].sides[side] = false;
+                sharp[a as usize] = true;
+                sharp[b as usize] = true;
+            }
+        }
     }
-    volumes(vertices, faces, &mut shells, what)
+    for (smooth, face) in smooth.iter_mut().zip(faces) {
+        smooth.corners = face.map(|v| !sharp[welded[v as usize] as usize]);
+    }
+    volumes(vertices, faces, &mut shells, what)?;
+    Ok(smooth)
+}
+
+/// Sine of the angle from which on an edge counts as sharp.
+const SHARP: f64 = 1e-4;
+
+/// Whether the surface bends away at the edge of two faces.
+fn is_sharp(edge: &[Side], vertices: &[DVec3], faces: &[[u32; 3]]) -> bool {
+    let along = vertices[edge[0].1 as usize] - vertices[edge[0].0 as usize];
+    let normals = [0, 1].map(|k| normal(faces[edge[k].2 as usize].map(|v| vertices[v as usize])));
+    let [Some(first), Some(second)] = normals else { return true };
+    let bend = first.cross(second).dot(along) / along.length();
+    // Towards a face's left its side runs forward: there, the surface bends away where the normals turn with it.
+    let bend = if edge[0].3 { bend } else { -bend };
+    bend > SHARP || first.dot(second) < 0.0 && bend > -SHARP
 }
 
 /// For each vertex the first one at the same place.

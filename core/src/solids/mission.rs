@@ -12,6 +12,8 @@ type Part = (&'static str, [f64; 3], [f64; 3]);
 const DOWN: f64 = f64::NEG_INFINITY;
 /// How far foundations, piers and the feet of ramps reach into the ground, m.
 const SUNK: f64 = 1.0;
+/// How far a ramp reaches into the floor or deck that it leads to, m.
+const OVERLAP: f64 = 0.5;
 /// The floor above the highest ground under it, m.
 const RAISED: f64 = 0.25;
 /// Height of a flag stand above the floor, m: stepped up on by every armor.
@@ -113,7 +115,9 @@ impl<G: Fn(f64, f64) -> f64> Builder<G> {
         let (lowest, _) = self.under(frame, [-x, far.min(edge)], [x, far.max(edge)]);
         let foot = lowest.min(top) - SUNK;
         let point = |x: f64, y: f64, z: f64| frame.at(x, y).extend(z);
-        let profile = [(edge, top), (far, foot), (edge, foot)];
+        // Half a metre into what it leads to, so that no gap is left between them.
+        let near = edge - OVERLAP * reach.signum();
+        let profile = [(near, top), (edge, top), (far, foot), (near, foot)];
         let points = profile.iter().flat_map(|&(y, z)| [point(-x, y, z), point(x, y, z)]).collect();
         self.solids.push(Solid::hull(name, points, Placement::default()));
     }

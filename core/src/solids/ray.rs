@@ -17,7 +17,7 @@ fn meets(line: &Motion, triangle: &Triangle) -> Option<Contact> {
     }
     let fraction = a.dot(triangle.normal) / across;
     let normal = if across < 0.0 { triangle.normal } else { -triangle.normal };
-    (0.0..=1.0).contains(&fraction).then_some(Contact { fraction, kind: Kind::Face, normal })
+    (0.0..=1.0).contains(&fraction).then_some(Contact { fraction, kind: Kind::Face, normal, overlaps: false })
 }
 
 impl Solids {

@@ -3,6 +3,7 @@
 use super::build::Solids;
 use super::triangle::{AT_ONCE, Contact, Motion, Triangle};
 use glam::DVec3;
+use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{BvhNode, TraversalAction};
 
 pub use super::triangle::SKIN;
@@ -63,9 +64,10 @@ impl Solids {
     /// Sweeps an upright box, `2 half_width` square and `height` tall with its underside's middle at `feet`,
     /// along `path`, all in metres and world coordinates, and finds the first face that it meets from outside.
     ///
-    /// A path that leaves a face, runs along it or only just reaches it does not meet it. A box that overlaps
-    /// faces at the start meets them at fraction 0, with the normal of the shortest way out, unless it moves
-    /// that way (docs/solids.md, "Inside a solid"). A path of zero length, or one that is not finite, meets nothing.
+    /// A path that leaves a face, runs along it or only just reaches it does not meet it. A box that overlaps faces at
+    /// the start by more than a millimetre meets the one with the shortest way out, at fraction 0, if it moves against
+    /// that way; else it moves as if what it overlaps were not there (docs/solids.md). A path of zero length, or one
+    /// that is not finite, meets nothing.
     ///
     /// The normal is that of the axis which parts box and face last; where several do at once the face's own,
     /// then the box's sides, then the most opposed to the path: never the order of solids or triangles.
@@ -75,7 +77,33 @@ impl Solids {
     }
 
     pub(super) fn sweep(&self, motion: &Motion) -> Option<FaceHit> {
-        self.first(motion, Motion::meets)
+        if !motion.is_finite() {
+            return None;
+        }
+        let Some(&Triangle { normal, solid, .. }) = self.buried(motion) else {
+            return self.first(motion, Motion::meets);
+        };
+        if motion.path.dot(normal) < 0.0 {
+            return Some(FaceHit { hit: SolidHit { fraction: 0.0, normal, solid }, face: normal });
+        }
+        // What else is overlapped must not press him back.
+        let presses = |contact: &Contact| contact.overlaps && contact.normal.dot(normal) < 0.0;
+        self.first(motion, |motion, triangle| motion.meets(triangle).filter(|contact| !presses(contact)))
+    }
+
+    /// Of the faces that the box overlaps at its start by more than a touch, the one with the shortest way out. It does
+    /// not depend on the path: so a box that moves that way, or across, is never held.
+    fn buried(&self, motion: &Motion) -> Option<&Triangle> {
+        let around = Aabb::new(motion.centre - motion.half, motion.centre + motion.half);
+        let faces = self.bvh().intersect_aabb(&around).filter_map(|leaf| {
+            let triangle = &self.triangles()[leaf as usize];
+            motion.buried(triangle).map(|depth| (depth, triangle))
+        });
+        let nearest = faces.min_by(|(a, i), (b, j)| {
+            let order = a.total_cmp(b).then_with(|| lexicographic(i.normal, j.normal));
+            order.then_with(|| i.solid.cmp(&j.solid))
+        });
+        nearest.map(|(_, triangle)| triangle)
     }
 
     /// The first contact of a motion, where `meets` tells that with one triangle.

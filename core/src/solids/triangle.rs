@@ -1,5 +1,6 @@
 //! A box moving along a straight path against one triangle: swept separating axes.
 
+use core::cmp::Ordering;
 use glam::DVec3;
 
 /// How far box and triangle must come to overlap sideways, along the face, before a contact counts, m.
@@ -11,6 +12,10 @@ pub const SKIN: f64 = 1e-4;
 /// Contacts within this of each other, along a normal or in metres of path, count as at once, m. Rounding of
 /// coordinates of 1,000 km is a hundredth of it.
 pub(super) const AT_ONCE: f64 = 1e-7;
+
+/// Overlaps at the start up to this deep are contacts like any other, m: what rounding leaves of a touch. Of deeper ones
+/// only one counts at a time ([`Motion::buried`]), else two that press from opposite sides would hold the box for ever.
+const TOUCH: f64 = 1e-3;
 
 /// Squared sine of the angle below which a triangle's edge and a box's edge count as parallel. Their cross
 /// product then says nothing that the other axes do not say to within 3 micrometres on a box's edge.
@@ -24,6 +29,17 @@ pub(super) struct Triangle {
     pub normal: DVec3,
     /// Number of its solid.
     pub solid: u32,
+    /// Where the surface is not sharp.
+    pub smooth: Smooth,
+}
+
+/// Which sides and corners of a triangle no box can meet but flat: where the surface goes on in the same plane or
+/// rises. There the only normal is the face's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Smooth {
+    /// Side k is that from corner k to the next.
+    pub sides: [bool; 3],
+    pub corners: [bool; 3],
 }
 
 /// An upright box in motion.
@@ -44,6 +60,8 @@ pub(super) enum Kind {
     Face,
     Box,
     Edge,
+    /// The edge between two faces in one plane, where neither of them counted.
+    Seam,
 }
 
 const KINDS: [Kind; 3] = [Kind::Face, Kind::Box, Kind::Edge];
@@ -55,12 +73,13 @@ pub(super) struct Contact {
     pub kind: Kind,
     /// From the triangle towards the box, length 1, against the path.
     pub normal: DVec3,
+    /// Whether the box overlaps the triangle at the start.
+    pub overlaps: bool,
 }
 
 impl Motion {
     /// The box's first contact with a triangle: `None` for a path that leaves it, runs along it or only just
-    /// reaches it. A box that overlaps the triangle at the start touches it there, unless it moves out the
-    /// shortest way, whichever side of the face that leads to.
+    /// reaches it, and for a triangle that the box overlaps by more than a touch at the start.
     pub fn meets(&self, triangle: &Triangle) -> Option<Contact> {
         if self.path.dot(triangle.normal) >= 0.0 {
             return None;
@@ -70,7 +89,18 @@ impl Motion {
 
     /// Whether the box overlaps a triangle where it is.
     pub fn overlaps(&self, triangle: &Triangle) -> bool {
-        Self { path: DVec3::ZERO, ..*self }.axes(triangle).is_some()
+        self.still().axes(triangle).is_some()
+    }
+
+    /// How deep the box is under the face of a triangle that it overlaps where it is by more than a touch.
+    pub fn buried(&self, triangle: &Triangle) -> Option<f64> {
+        self.still().axes(triangle).filter(|axes| axes.shallowest.depth > TOUCH)?;
+        let normal = triangle.normal;
+        Some((triangle.corners[0] - self.centre).dot(normal) + self.half.dot(normal.abs()))
+    }
+
+    fn still(&self) -> Self {
+        Self { path: DVec3::ZERO, ..*self }
     }
 
     /// All axes; `None` as soon as one parts box and triangle all along the path.
@@ -121,6 +151,7 @@ struct Overlap {
 struct Axes {
     path: DVec3,
     normal: DVec3,
+    smooth: Smooth,
     /// Corners from the box's centre.
     corners: [DVec3; 3],
     /// The part of the path in which all axes overlap by their skins.
@@ -136,6 +167,7 @@ impl Axes {
         Self {
             path: motion.path,
             normal: triangle.normal,
+            smooth: triangle.smooth,
             corners: triangle.corners.map(|c| c - motion.centre),
             from: f64::NEG_INFINITY,
             to: f64::INFINITY,
@@ -174,9 +206,12 @@ impl Axes {
             }
         }
         let (depth, out) = if -low < high { (-low, -axis) } else { (high, axis) };
-        let margin = if kind == self.shallowest.kind { 0.0 } else { AT_ONCE };
-        let ahead = if kind < self.shallowest.kind { depth - margin } else { depth + margin };
-        if ahead < self.shallowest.depth {
+        let margin = match kind.cmp(&self.shallowest.kind) {
+            Ordering::Less => -AT_ONCE,
+            Ordering::Equal => 0.0,
+            Ordering::Greater => AT_ONCE,
+        };
+        if depth + margin < self.shallowest.depth {
             self.shallowest = Overlap { depth, kind, out };
         }
         (self.from <= self.to).then_some(())
@@ -184,17 +219,46 @@ impl Axes {
 
     /// The contact, when every axis overlaps at some time.
     fn contact(&self) -> Option<Contact> {
-        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
-        if self.from <= 0.0 && last < 0.0 {
-            let Overlap { kind, out, .. } = self.shallowest;
-            return (self.path.dot(out) < 0.0).then_some(Contact { fraction: 0.0, kind, normal: out });
+        if self.overlaps() {
+            let Overlap { kind, out, depth } = self.shallowest;
+            // Deeper by less than a skin is let go, until it is more than a touch: in a gap just as wide as the box its
+            // two sides would stop it in turn for ever.
+            let deeper = depth <= TOUCH && self.path.dot(out) < -SKIN;
+            return deeper.then(|| self.met(0.0, kind, out));
         }
+        let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
         let at_once = |kind: &&Kind| {
             let entry = &self.entries[**kind as usize];
             entry.speed > 0.0 && (last - entry.at) * entry.speed <= AT_ONCE
         };
         let kind = *KINDS.iter().find(at_once)?;
-        let normal = self.entries[kind as usize].normal;
-        Some(Contact { fraction: last.max(0.0), kind, normal })
+        Some(self.met(last, kind, self.entries[kind as usize].normal))
+    }
+
+    /// A contact along a normal, or along the face's own if that is the only one where the triangle is met.
+    fn met(&self, fraction: f64, kind: Kind, normal: DVec3) -> Contact {
+        let reach = self.corners.map(|corner| corner.dot(normal));
+        let most = reach[0].max(reach[1]).max(reach[2]) - AT_ONCE;
+        let smooth = match reach.map(|at| at >= most) {
+            [true, false, false] => self.smooth.corners[0],
+            [false, true, false] => self.smooth.corners[1],
+            [false, false, true] => self.smooth.corners[2],
+            [true, true, false] => self.smooth.sides[0],
+            [false, true, true] => self.smooth.sides[1],
+            [true, false, true] => self.smooth.sides[2],
+            _ => false,
+        };
+        let face = &self.entries[Kind::Face as usize];
+        let (kind, normal) = if smooth && (fraction - face.at) * face.speed <= TOUCH {
+            (Kind::Seam, self.normal)
+        } else {
+            (kind, normal)
+        };
+        Contact { fraction, kind, normal, overlaps: fraction == 0.0 && self.overlaps() }
+    }
+
+    /// Whether every axis that closes overlapped before the start.
+    fn overlaps(&self) -> bool {
+        self.entries.iter().all(|entry| entry.at < 0.0)
     }
 }

@@ -6,7 +6,9 @@ pub mod crowd;
 pub mod draws;
 pub mod envs;
 pub mod lab;
+pub mod random;
 pub mod range;
+pub mod solids;
 
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;

@@ -13,7 +13,16 @@ use std::path::Path;
 
 pub(super) fn mesh(bytes: &[u8], path: &Path, what: &str) -> Result<Shape, InputError> {
     let fail = |e: gltf::Error| InputError(format!("{what}: expected a glTF 2.0 file, got: {e}"));
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(fail)?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(fail)?;
+    // The validation that follows takes these for granted.
+    let json = document.into_json();
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if let Some(number) =
+        primitives.flat_map(|p| p.attributes.values()).find(|n| n.value() >= json.accessors.len())
+    {
+        refuse!("{what}: expected accessors below {}, got {}", json.accessors.len(), number.value());
+    }
+    let document = Document::from_json(json).map_err(fail)?;
     let buffers = buffers(&document, blob, path, what)?;
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         refuse!("{what}: expected a scene, got none");
