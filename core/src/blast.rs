@@ -1,6 +1,6 @@
 //! What an explosion does to a player: a push and damage (docs/physics.md, section 6).
 
-use crate::player::Player;
+use crate::player::{Place, Player};
 use crate::real::{Mask, Real, Scalar, V3};
 use crate::rules::{Cutoff, Knockback, Rules};
 use crate::scene::{Group, Scene};
@@ -126,6 +126,17 @@ pub fn strike<S: Scene, R: Real>(
         let damage = p.damage.get(R::zero());
         p.damage.set(R::select(meets, damage + scale * share * coverage, damage));
     }
+}
+
+/// A place in the local frame of a player who may be in another tile: the `at` of [`strike`], m.
+#[inline(always)]
+pub fn seen_from<S: Scene, R: Real>(
+    p: &Player<S, R>,
+    place: &Place<R>,
+    surface: &Surface<'_, R::Scalar>,
+) -> V3<R> {
+    let (x, y) = surface.tiles_apart::<R>(place.tile_x - p.tile_x, place.tile_y - p.tile_y);
+    place.position + V3::new(x, y, R::zero())
 }
 
 /// Coverage of a blast over bare terrain: all of a player's body, unless the blast lies deeper than

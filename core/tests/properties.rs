@@ -5,18 +5,24 @@ mod common;
 
 use common::draws::*;
 use common::lab::*;
+use discjump_core::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use discjump_core::real::Scalar;
+use discjump_core::rules::Physics;
 use discjump_core::scene::Has;
 use discjump_core::terrain::Heightfield;
 use proptest::prelude::*;
 
-fn check_invariants<T: Scalar>(
+/// How deep an unswept fix-up may dip, m: a slice down one face of a pit ends 2 sin(slope) slices under the
+/// opposite one.
+const DIP: f64 = 2.0;
+
+fn check_invariants<M: Movement, T: Scalar>(
     terrain: &Heightfield,
     (mut place, velocity, yaw): Start,
     keys: &[Keys],
     deepest: f64,
 ) -> Result<(), TestCaseError> {
-    let lab = Lab::<T>::new(terrain);
+    let lab = Lab::<T>::of(M::MODEL, terrain, Physics::default());
     place[2] += lab.ground(place[0], place[1]);
     let mut p: Body<T> = lab.player(place, velocity);
     p.yaw = T::from_f64(yaw);
@@ -26,7 +32,7 @@ fn check_invariants<T: Scalar>(
     for &(forward, strafe, jump, jet, turn) in keys {
         for _ in 0..10 {
             let before = p;
-            p = lab.tick(&p, &input(forward, strafe, jump, jet, turn));
+            p = lab.tick_as::<M, _>(&p, &input(forward, strafe, jump, jet, turn));
             prop_assert!(numbers(&p).iter().all(|x| x.is_finite()), "{before:?} {p:?}");
             let deep = lab.clearance(&p);
             prop_assert!(deep >= -deepest, "{deep} m below: {before:?} {p:?}");
@@ -51,7 +57,20 @@ proptest! {
     #[test]
     fn every_tick_leaves_a_possible_player(seed in 0..1000u64, start in start(), keys in keys()) {
         let terrain = rough(seed);
-        check_invariants::<f32>(&terrain, start, &keys, 1e-3)?;
-        check_invariants::<f64>(&terrain, start, &keys, 1e-9)?;
+        check_invariants::<Sliced, f32>(&terrain, start, &keys, 1e-3)?;
+        check_invariants::<Sliced, f64>(&terrain, start, &keys, 1e-9)?;
+        check_invariants::<Fast, f32>(&terrain, start, &keys, 1e-3)?;
+        check_invariants::<Fast, f64>(&terrain, start, &keys, 1e-9)?;
+    }
+
+    /// `swept` dips in steep pits. `anyway` falls through them, and so may a sphere whose centre gets
+    /// below the plane of a neighbouring face.
+    #[test]
+    fn every_tick_of_the_other_tiers_too(seed in 0..1000u64, start in start(), keys in keys()) {
+        let terrain = rough(seed);
+        check_invariants::<Swept, f32>(&terrain, start, &keys, DIP)?;
+        check_invariants::<Engine, f32>(&terrain, start, &keys, f64::MAX)?;
+        check_invariants::<Engine, f64>(&terrain, start, &keys, f64::MAX)?;
+        check_invariants::<Anyway, f64>(&terrain, start, &keys, f64::MAX)?;
     }
 }

@@ -7,17 +7,19 @@ mod common;
 use common::draws::*;
 use common::lab::*;
 use common::*;
+use discjump_core::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use discjump_core::real::Scalar;
+use discjump_core::rules::Physics;
 use discjump_core::terrain::{Edge, Heightfield};
 use proptest::prelude::*;
 
 /// The same run with its start in another tile: the same bits, place for place.
-fn check_translated<T: Scalar>(
+fn check_translated<M: Movement, T: Scalar>(
     (place, velocity, yaw): Start,
     tiles: [i32; 2],
     keys: &[Keys],
 ) -> Result<(), TestCaseError> {
-    let lab = Lab::<T>::new(&rough(5));
+    let lab = Lab::<T>::of(M::MODEL, &rough(5), Physics::default());
     // Places that a far world position can hold.
     let place = place.map(|x| (x * 1024.0).round() / 1024.0);
     let run = |shift: [i32; 2]| {
@@ -27,7 +29,7 @@ fn check_translated<T: Scalar>(
         let mut p: Body<T> = lab.player(local.to_array(), velocity);
         (p.tile_x, p.tile_y, p.yaw) = (tile.x, tile.y, T::from_f64(yaw));
         for &(forward, strafe, jump, jet, turn) in keys {
-            (0..10).for_each(|_| p = lab.tick(&p, &input(forward, strafe, jump, jet, turn)));
+            (0..10).for_each(|_| p = lab.tick_as::<M, _>(&p, &input(forward, strafe, jump, jet, turn)));
         }
         p
     };
@@ -48,8 +50,12 @@ proptest! {
         tiles in [-1_000_000..1_000_000i32, -1_000_000..1_000_000i32],
         keys in keys(),
     ) {
-        check_translated::<f32>(start, tiles, &keys)?;
-        check_translated::<f64>(start, tiles, &keys)?;
+        check_translated::<Sliced, f32>(start, tiles, &keys)?;
+        check_translated::<Sliced, f64>(start, tiles, &keys)?;
+        check_translated::<Swept, f32>(start, tiles, &keys)?;
+        check_translated::<Fast, f32>(start, tiles, &keys)?;
+        check_translated::<Engine, f32>(start, tiles, &keys)?;
+        check_translated::<Anyway, f32>(start, tiles, &keys)?;
     }
 }
 
@@ -91,11 +97,11 @@ impl Image {
 }
 
 /// How far a run of 5 s and the image of the same run in the image of the world part, in metres.
-fn parted<T: Scalar>(image: Image, start: Start, keys: &[Keys]) -> f64 {
+fn parted<M: Movement, T: Scalar>(image: Image, start: Start, keys: &[Keys]) -> f64 {
     let (mut place, velocity, yaw) = start;
     let field = centred();
-    let lab = Lab::<T>::new(&field);
-    let other = Lab::<T>::new(&image.terrain(&field));
+    let lab = Lab::<T>::of(M::MODEL, &field, Physics::default());
+    let other = Lab::<T>::of(M::MODEL, &image.terrain(&field), Physics::default());
     place[2] += lab.ground(place[0], place[1]);
     let mut p: Body<T> = lab.player(place, velocity);
     let mut q: Body<T> = other.player(image.vector(place), image.vector(velocity));
@@ -105,8 +111,8 @@ fn parted<T: Scalar>(image: Image, start: Start, keys: &[Keys]) -> f64 {
     for &(forward, strafe, jump, jet, turn) in keys.iter().take(16) {
         let (_, turn_there, strafe_there) = image.keys(0.0, turn, strafe);
         for _ in 0..10 {
-            p = lab.tick(&p, &input(forward, strafe, jump, jet, turn));
-            q = other.tick(&q, &input(forward, strafe_there, jump, jet, turn_there));
+            p = lab.tick_as::<M, _>(&p, &input(forward, strafe, jump, jet, turn));
+            q = other.tick_as::<M, _>(&q, &input(forward, strafe_there, jump, jet, turn_there));
             let (a, b) = (image.vector(floats(p.position)), floats(q.position));
             let apart = |k: usize| {
                 let d = (a[k] - b[k]).abs();
@@ -137,15 +143,42 @@ proptest! {
     /// East and west are the same to the last bit: nothing is added in another order.
     #[test]
     fn a_mirrored_world_plays_the_mirrored_run(start in start(), keys in keys()) {
-        prop_assert_eq!(parted::<f32>(Image::Mirror, start, &keys), 0.0);
-        prop_assert_eq!(parted::<f64>(Image::Mirror, start, &keys), 0.0);
+        prop_assert_eq!(parted::<Sliced, f32>(Image::Mirror, start, &keys), 0.0);
+        prop_assert_eq!(parted::<Sliced, f64>(Image::Mirror, start, &keys), 0.0);
+    }
+
+    /// The other tiers to rounding: a place a hair west of the middle is rounded when it is counted from
+    /// its square's western corner, and one a hair east of it is not, and they hit what that moves.
+    #[test]
+    fn the_other_tiers_mirror_to_rounding(start in start(), keys in keys()) {
+        let single = [
+            parted::<Swept, f32>(Image::Mirror, start, &keys),
+            parted::<Fast, f32>(Image::Mirror, start, &keys),
+            parted::<Engine, f32>(Image::Mirror, start, &keys),
+            parted::<Anyway, f32>(Image::Mirror, start, &keys),
+        ];
+        prop_assert!(single.iter().all(|d| *d < 5e-3), "{single:?}");
+        let double = [
+            parted::<Swept, f64>(Image::Mirror, start, &keys),
+            parted::<Fast, f64>(Image::Mirror, start, &keys),
+            parted::<Engine, f64>(Image::Mirror, start, &keys),
+            parted::<Anyway, f64>(Image::Mirror, start, &keys),
+        ];
+        prop_assert!(double.iter().all(|d| *d < 1e-11), "{double:?}");
     }
 
     /// A turned one only to rounding: sums over x and y come in another order.
     #[test]
     fn a_turned_world_plays_the_turned_run(start in start(), keys in keys()) {
-        let single = parted::<f32>(Image::Turn, start, &keys);
-        let double = parted::<f64>(Image::Turn, start, &keys);
-        prop_assert!(single < 5e-3 && double < 1e-11, "{single:e} m, {double:e} m");
+        let single = parted::<Sliced, f32>(Image::Turn, start, &keys);
+        prop_assert!(single < 5e-3, "{single:e} m");
+        let double = [
+            parted::<Sliced, f64>(Image::Turn, start, &keys),
+            parted::<Swept, f64>(Image::Turn, start, &keys),
+            parted::<Fast, f64>(Image::Turn, start, &keys),
+            parted::<Engine, f64>(Image::Turn, start, &keys),
+            parted::<Anyway, f64>(Image::Turn, start, &keys),
+        ];
+        prop_assert!(double.iter().all(|d| *d < 1e-11), "{double:?} m");
     }
 }

@@ -4,12 +4,14 @@
 //! * `solids`: what stands on one
 //! * `simulator`: `Simulator`, bodies without a task
 //! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `blast`: the explosion formulas for arrays
 //! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
+mod blast;
 mod errors;
 mod physics;
 mod pools;
@@ -23,6 +25,8 @@ use pyo3::prelude::*;
 /// Private: what the package `discjump` is made from.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::blast::blast_falloff;
     #[pymodule_export]
     use crate::simulator::{Simulator, scenes};
     #[pymodule_export]

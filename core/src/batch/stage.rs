@@ -3,7 +3,7 @@
 
 use super::neighbourhood::{Neighbourhood, Stand, vector};
 use crate::arms::{Arms, Arsenal, Projectile};
-use crate::blast::{Explosive, body_points, coverage_on_terrain, strike};
+use crate::blast::{Explosive, body_points, coverage_on_terrain, seen_from, strike};
 use crate::flight::{fire, fly};
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
@@ -175,7 +175,7 @@ impl<T: Scalar> Stage<'_, T> {
             }
             return;
         }
-        let at = self.relative(p, &shot.place(p.map));
+        let at = seen_from(p, &shot.place(p.map), &self.surface);
         let coverage = coverage_on_terrain(&self.surface, p.map, at);
         strike(p, at, burst, coverage, &self.arsenal.explosive, self.rules);
     }
@@ -188,7 +188,7 @@ impl<T: Scalar> Stage<'_, T> {
         struck: bool,
         world: &Neighbourhood<'_, T>,
     ) {
-        let at = self.relative(p, &shot.place(p.map));
+        let at = seen_from(p, &shot.place(p.map), &self.surface);
         let eye = at + shot.axis * T::from_f64(LIFTED);
         self.explode(p, at, eye, struck, &self.arsenal.explosive, world);
     }
@@ -212,17 +212,6 @@ impl<T: Scalar> Stage<'_, T> {
             coverage_on_terrain(&self.surface, p.map, at)
         };
         strike(p, at, struck, coverage, explosive, self.rules);
-    }
-
-    /// A place in the local frame of a player.
-    #[inline(always)]
-    pub(super) fn relative<S: Scene, R: Real<Scalar = T>>(
-        &self,
-        p: &Player<S, R>,
-        place: &Place<R>,
-    ) -> V3<R> {
-        let (dx, dy) = self.surface.tiles_apart::<R>(place.tile_x - p.tile_x, place.tile_y - p.tile_y);
-        V3::new(place.position.x + dx, place.position.y + dy, place.position.z)
     }
 
     /// Whose tick, or whose projectiles', may meet a solid.

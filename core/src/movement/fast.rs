@@ -1,5 +1,26 @@
-//! placeholder while measuring
-use super::contact::Tally;
+//! The tier for training: one look at the ground a tick, at the place where the move ends.
+//!
+//! Most ticks of a skier are flight, and sweeping their slices is what `authentic` spends its time on.
+//! Here a tick asks for the plane under the end of its straight move. Where both ends of the move lie
+//! above that plane nothing is met, whichever one edge between triangles it crosses: that was the tick.
+//! Else one exact sweep of the whole move finds the contact; the whole metres before it are made at the
+//! old velocity and the rest of the tick at the new one, as in `authentic`, but that rest is not swept.
+//! Should it end below the ground, the face there is a second contact, and the player is put on it.
+//!
+//! The hop, its period and the ski acceleration law are thus those of `authentic` on any plane. What is
+//! dropped:
+//!
+//! - the way of the rest of the tick after a contact, and where exactly its second contact is;
+//! - third and later contacts of a tick. So the bump limit is never reached: `ski_bug` does nothing, and
+//!   `bump_limits` stays 0;
+//! - contacts of a move that crosses several edges and has both ends above the last triangle's plane.
+//!   Squares are 8 m, so at ordinary speeds (1 m a tick at 31 m/s) that is the tip of a peak; at
+//!   hundreds of metres a second it may be a hill. Nobody falls through the ground at any speed: the end of
+//!   every tick is held above it.
+//!
+//! docs/tiers.md has the errors and the cost, measured.
+
+use super::contact::{Tally, slices};
 use super::{Movement, Obstacles};
 use crate::player::Player;
 use crate::real::{Mask, Real, V3};
@@ -7,7 +28,7 @@ use crate::rules::{Model, Rules};
 use crate::scene::Scene;
 use crate::terrain::Hit;
 
-/// x
+/// One look at the ground a tick, where the move ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Fast;
 
@@ -24,37 +45,61 @@ impl Movement for Fast {
         let zero = R::zero();
         let one = R::lit(1.0);
         let dt = R::splat(rules.dt);
+        let none = R::Mask::splat(false);
         let mut tally = Tally::new();
+
         let at = p.place();
         let path = p.velocity * dt;
         let end = p.position + path;
-
-        let mut ground = world.surface().ground::<R>(p.map, end.x, end.y);
-        let end_gap = end.z - ground.height;
-        let approach = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
-        let start_gap = end_gap - approach;
-        let hit = ground.exists.and(end_gap.lt(zero)).and(approach.lt(zero));
-        let fraction = (start_gap / (start_gap - end_gap)).max(zero);
-        let mut first = Hit { hit, fraction, normal: ground.normal(), body: R::Mask::splat(false) };
-        if W::BODIES {
-            first = Hit::first(first, world.sweep_bodies(&at, path, R::Mask::splat(true)));
+        let mut ground = world.surface().ground::<R>(at.map, end.x, end.y);
+        // Height of the end over the plane there, and how much of it the move has gained.
+        let gap = end.z - ground.height;
+        let climb = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
+        let near = ground.exists.and(gap.min(gap - climb).lt(zero));
+        let mut hit = Hit::none();
+        if near.any() {
+            hit = world.surface().sweep::<R>(at.map, at.position, path, near);
         }
-        p.position = V3::select(first.hit, p.position, end);
-        if first.hit.any() {
-            let stops = tally.meet(p, world, (&at, path, at.position), (&first, first.hit), rules);
-            let count = R::from_int(super::contact::slices(path.length()));
-            let whole = (R::from_int((first.fraction * count).ceil_int()) - one).max(zero) / count.max(one);
-            let turned = p.position + path * whole;
-            let mut goal = turned + p.velocity * (dt * (one - whole));
+        if W::BODIES {
+            // Bodies may be thinner than a move is long, so they are swept in every tick.
+            hit = Hit::first(hit, world.sweep_bodies(&at, path, none.not()));
+        }
+        p.position = V3::select(hit.hit, at.position, end);
+
+        if hit.hit.any() {
+            let stops = tally.meet(p, world, (&at, path, at.position), (&hit, hit.hit), rules);
+            let goes_on = hit.hit.and(stops.not());
+            // The slices of a metre before the one that hits, as a share of the tick.
+            let count = R::from_int(slices(path.length())).max(one);
+            let whole = (R::from_int((hit.fraction * count).ceil_int()) - one).max(zero) / count;
+            let start = p.position + path * whole;
+            let rest = p.velocity * (dt * (one - whole));
+            let mut goal = start + rest;
             if W::BODIES {
                 let mut from = at;
-                from.position = turned;
-                let again = world.sweep_bodies(&from, goal - turned, first.hit.and(stops.not()));
-                goal = V3::select(again.hit, turned, goal);
+                from.position = start;
+                let met = world.sweep_bodies(&from, rest, goes_on);
+                let second = goes_on.and(met.hit);
+                if second.any() {
+                    let there = start + rest * met.fraction;
+                    p.position = V3::select(second, there, p.position);
+                    tally.meet(p, world, (&from, rest, there), (&met, second), rules);
+                    goal = V3::select(second, p.position, goal);
+                }
             }
-            p.position = V3::select(first.hit.and(stops.not()), goal, p.position);
-            ground = world.surface().ground::<R>(p.map, p.position.x, p.position.y);
+            p.position = V3::select(goes_on, goal, p.position);
+
+            ground = world.surface().ground::<R>(at.map, p.position.x, p.position.y);
+            let normal = ground.normal();
+            let under = ground.exists.and(p.position.z.lt(ground.height));
+            let again = goes_on.and(under).and(p.velocity.dot(normal).lt(zero));
+            if again.any() {
+                let second = Hit { hit: again, fraction: one, normal, body: none };
+                let here = p.place();
+                tally.meet(p, world, (&here, rest, here.position), (&second, again), rules);
+            }
         }
+        // Where nothing was met the ground is the one at the end: a move that leaves a face from below.
         let sunk = ground.exists.and(p.position.z.lt(ground.height));
         p.position.z = R::select(sunk, ground.height, p.position.z);
         tally.settle(p);

@@ -28,8 +28,9 @@ pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
         p.contact.set(contact);
     }
 
-    // The pack is a device of its own, served before the jets ask for energy.
-    let energy = p.energy.get(R::splat(rules.max_energy)) + R::splat(rules.pack_recharge);
+    // The pack is a device of its own, served before the jets ask for energy; a full tank takes nothing.
+    let full = R::splat(rules.max_energy);
+    let energy = (p.energy.get(full) + R::splat(rules.pack_recharge)).min(full);
     let mut gain = V3::new(R::zero(), R::zero(), R::splat(rules.fall));
     let mut burn = R::Mask::splat(false);
     if S::Jet::<R>::MODELED {
@@ -43,7 +44,7 @@ pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     if S::Energy::<R>::MODELED {
         let drain = R::select(burn, R::splat(rules.drain), R::zero());
         let left = energy - drain + (R::splat(rules.recharge) - R::splat(rules.pack_recharge));
-        p.energy.set(left.max(R::zero()).min(R::splat(rules.max_energy)));
+        p.energy.set(left.max(R::zero()).min(full));
     }
 
     let before = p.velocity;

@@ -2,7 +2,7 @@
 
 use discjump_core::armor::LIGHT;
 use discjump_core::input::Input;
-use discjump_core::movement::Sliced;
+use discjump_core::movement::{Movement, Sliced};
 use discjump_core::player::{Contact, Player};
 use discjump_core::real::{Scalar, V3};
 use discjump_core::rules::{Model, Physics, Rules};
@@ -23,8 +23,12 @@ impl<T: Scalar> Lab<T> {
     }
 
     pub fn with(terrain: &Heightfield, physics: Physics) -> Self {
+        Self::of(Model::Article, terrain, physics)
+    }
+
+    pub fn of(model: Model, terrain: &Heightfield, physics: Physics) -> Self {
         let maps = Maps::new(core::slice::from_ref(terrain)).unwrap();
-        Self { maps, rules: Rules::new(Model::Article, &LIGHT, false, 32, physics) }
+        Self { maps, rules: Rules::new(model, &LIGHT, false, 32, physics) }
     }
 
     pub fn player<S: Scene>(&self, position: [f64; 3], velocity: [f64; 3]) -> Player<S, T> {
@@ -35,8 +39,12 @@ impl<T: Scalar> Lab<T> {
     }
 
     pub fn tick<S: Scene>(&self, before: &Player<S, T>, input: &Input<T>) -> Player<S, T> {
+        self.tick_as::<Sliced, S>(before, input)
+    }
+
+    pub fn tick_as<M: Movement, S: Scene>(&self, before: &Player<S, T>, input: &Input<T>) -> Player<S, T> {
         let surface = self.maps.surface::<T>();
-        let mut p = tick::<S, Sliced, T, _>(before, input, &surface, &self.rules);
+        let mut p = tick::<S, M, T, _>(before, input, &surface, &self.rules);
         (p.position.x, p.position.y, p.tile_x, p.tile_y) =
             surface.wrap::<T>(p.position.x, p.position.y, p.tile_x, p.tile_y);
         p

@@ -9,7 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 from discjump.simulator import Physics
 from discjump.solids import Solid
 
-__all__ = ["Simulator", "SkiBatch", "Terrain", "load_mesh", "scenes"]
+__all__ = ["Simulator", "SkiBatch", "Terrain", "blast_falloff", "load_mesh", "scenes"]
+
+def blast_falloff(
+    distance: NDArray[np.float64], formula: str, radius: float, min_box: float, cutoff: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 @final
 class Terrain:

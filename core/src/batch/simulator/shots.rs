@@ -3,6 +3,7 @@
 use super::super::neighbourhood::{Neighbourhood, Stand};
 use super::Simulator;
 use super::setup::find_weapon;
+use crate::blast::seen_from;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
 use crate::movement::Movement;
@@ -82,7 +83,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
                 for (me, body) in bodies.iter_mut().enumerate() {
                     let map = body.player.map;
                     let place = Place { position, tile_x: tile.x, tile_y: tile.y, map };
-                    let at = stage.relative(&body.player, &place);
+                    let at = seen_from(&body.player, &place, &stage.surface);
                     let hood = Neighbourhood { stage: &stage, stands: &stands, me };
                     stage.explode(&mut body.player, at, at, true, &explosive, &hood);
                 }
