@@ -2,9 +2,8 @@
 
 import shlex
 import time
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,9 +11,6 @@ from discjump._results import machine, require_matplotlib, save, versions
 from discjump.accuracy import measure, report
 from discjump.accuracy.plot import draw
 from discjump.accuracy.situations import SITUATIONS
-
-if TYPE_CHECKING:
-    from click._termui_impl import ProgressBar
 
 STARTS, QUICK_STARTS = 256, 16
 OUT = Path("runs/accuracy")
@@ -97,10 +93,11 @@ def record(
     curves: list[dict[str, Any]] = []
     began = time.perf_counter()
     work = len(situations) * (1 + len(tiers)) * starts * ticks
-    with click.progressbar(length=work, label="player-ticks", item_show_func=_shown) as bar:
+    with click.progressbar(length=work, show_pos=True) as bar:
         for name in situations:
+            bar.label = f"{name:<8}"
             plays = SITUATIONS[name].plays(seed, starts, ticks)
-            errors = measure.compare(plays, tiers, partial(_tell, bar, name))
+            errors = measure.compare(plays, tiers, bar.update)
             for tier in tiers:
                 rows += measure.rows(name, tier, errors[tier])
                 curves.append({"situation": name, "tier": tier, **measure.curve(errors[tier], drawn)})
@@ -121,14 +118,6 @@ def record(
         "curve_seconds": [round(tick * measure.TICK, 3) for tick in drawn],
         "curves": curves,
     }
-
-
-def _shown(situation: object) -> str:
-    return str(situation or "")
-
-
-def _tell(bar: "ProgressBar[int]", situation: str, played: int) -> None:
-    bar.update(played, situation)
 
 
 def _command(

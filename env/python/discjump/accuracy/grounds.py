@@ -57,7 +57,7 @@ def slopes(heights: Floats) -> Floats:
 
 
 def _axis(count: int) -> Floats:
-    return SQUARE * np.arange(count) - 0.5 * SQUARE * (count - 1)
+    return SQUARE * np.arange(count, dtype=np.float64) - 0.5 * SQUARE * (count - 1)
 
 
 def _terrain(heights: Floats) -> Terrain:

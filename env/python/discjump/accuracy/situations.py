@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,12 +96,7 @@ def crease(rng: Generator, name: str, terrain: Terrain, count: int, ticks: int) 
 def landing(rng: Generator, name: str, terrain: Terrain, count: int, ticks: int) -> Play:
     """Falling at 25 to 60 m/s from 3 to 10 m above a slope of 10 to 50 degrees, and skiing on."""
 
-    def sloped(places: Places) -> NDArray[np.bool_]:
-        up = terrain.normal(places.xy)[:, 2]
-        between: NDArray[np.bool_] = (up <= np.cos(np.radians(10.0))) & (up >= np.cos(np.radians(50.0)))
-        return between
-
-    places = browse(rng, terrain, count, sloped)
+    places = browse(rng, terrain, count, partial(_sloped, terrain, 10.0, 50.0))
     velocity = rng.uniform(0.0, 15.0, count)[:, None] * np.column_stack([places.ahead, np.zeros(count)])
     velocity[:, 2] = -rng.uniform(25.0, 60.0, count)
     inputs = scripts.held(ticks, count, forward=1, jump=True)
@@ -116,7 +112,8 @@ def blast(rng: Generator, name: str, terrain: Terrain, count: int, ticks: int) -
     (core/docs/physics.md, section 6), so every disc multiplies an error: with one every two seconds even
     `reference` forgets its start within 20 s, and nothing could be told about the tiers.
     """
-    places = browse(rng, terrain, count)
+    # From about 41 degrees on, who has once slid goes on sliding.
+    places = browse(rng, terrain, count, partial(_sloped, terrain, 0.0, 35.0))
     inputs = scripts.turning(rng, scripts.held(ticks, count, forward=1, jump=True))
     # Standing still up to the jump, or the point would not be where the feet are.
     inputs["forward"][:JUMP] = 0
@@ -132,6 +129,13 @@ def blast(rng: Generator, name: str, terrain: Terrain, count: int, ticks: int) -
     blasts = {JUMP + n: np.where((delay == n)[:, None], points, np.nan) for n in range(1, 9)}
     rest = np.zeros((count, 3))
     return Play(name, terrain, "disc_jump", places.above(terrain, 0.05), rest, places.yaw, inputs, blasts)
+
+
+def _sloped(terrain: Terrain, least: float, most: float, places: Places) -> NDArray[np.bool_]:
+    """Where the slope is between two angles, degrees."""
+    slope = np.degrees(np.arccos(terrain.normal(places.xy)[:, 2]))
+    between: NDArray[np.bool_] = (slope >= least) & (slope <= most)
+    return between
 
 
 def _creases() -> dict[str, Terrain]:
