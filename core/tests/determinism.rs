@@ -13,7 +13,7 @@ use common::crowd::{play, simulator};
 use common::envs::{Envs, ski};
 use common::*;
 
-const TIERS: [&str; 2] = ["authentic", "reference"];
+const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
 const DECISIONS: usize = 120;
 
 /// What environments with some seeds return over a run, in a batch of `count` at some indices.

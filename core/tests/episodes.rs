@@ -9,7 +9,7 @@ use discjump_core::batch::{Autoreset, ResetRequest, SkiEnvironments};
 use discjump_core::task::{CourseRequest, Outcome};
 use glam::DVec2;
 
-const TIERS: [&str; 2] = ["authentic", "reference"];
+const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
 /// Forward, straight on.
 const WALK: [i8; 5] = [2, 1, 0, 0, 3];
 

@@ -14,7 +14,7 @@ use discjump_core::batch::{Autoreset, SkiEnvironments};
 use discjump_core::random::{Purpose, bits};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
 
-const TIERS: [&str; 2] = ["authentic", "reference"];
+const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
 
 #[test]
 fn a_simulator_goes_on_from_a_snapshot() {

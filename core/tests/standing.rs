@@ -35,7 +35,7 @@ fn solids_far_away_change_no_bit() {
     let map = rolling();
     let tower = cuboid([10.0, 10.0, 200.0], [500.0, 500.0, 50.0]);
     for tier in TIERS {
-        let mut with = alone(&map, &[tower.clone()], tier);
+        let mut with = alone(&map, core::slice::from_ref(&tower), tier);
         let mut s = setup(&map, tier);
         s.scene = "disc_jump";
         let mut without = Crew::new(&s);
@@ -55,7 +55,7 @@ fn a_plate_of_a_millimetre_stops_everyone_at_any_speed() {
     for tier in TIERS {
         for speed in [1.0, 20.0, 700.0, 20_000.0, 1e6] {
             for yaw in [0.0f64, 0.6, -1.2] {
-                let mut one = alone(&flat(), &[plate.clone()], tier);
+                let mut one = alone(&flat(), core::slice::from_ref(&plate), tier);
                 let aim = [speed * yaw.cos(), speed * yaw.sin(), 0.0];
                 one.put(0, [25.0, 0.0, 20.0], aim);
                 for tick in 0..12 {
@@ -78,7 +78,7 @@ fn a_level_deck_is_as_good_as_level_ground() {
     for (tier, slack) in
         [("reference", 1e-9), ("authentic", 1e-3), ("swept", 1e-3), ("engine", f64::INFINITY)]
     {
-        let mut deck = alone(&flat(), &[deck.clone()], tier);
+        let mut deck = alone(&flat(), core::slice::from_ref(&deck), tier);
         let mut ground = alone(&raised(20.0), &[], tier);
         for one in [&mut deck, &mut ground] {
             one.put(0, [0.0, 0.0, 21.0], [15.0, 0.0, 0.0]);
@@ -144,7 +144,7 @@ fn a_ramp_is_skied_like_a_slope() {
     for (tier, expected) in
         [("reference", 58.3), ("authentic", 58.3), ("swept", 58.3), ("fast", 58.3), ("engine", 58.3)]
     {
-        let mut one = alone(&flat(), &[ramp.clone()], tier);
+        let mut one = alone(&flat(), core::slice::from_ref(&ramp), tier);
         one.put(0, [10.0, 0.0, high + 1.0], [0.0; 3]);
         one.set(0, &[("yaw", &[-core::f64::consts::FRAC_PI_2])]);
         (0..312).for_each(|_| one.sim.step(&[SKI], 1).unwrap());
@@ -160,7 +160,7 @@ fn a_disc_bursts_on_a_wall_and_the_wall_shades_from_it() {
     let wall = cuboid([40.0, 0.2, 20.0], [0.0, 10.0, 10.0]);
     for tier in TIERS {
         // Player 0 shoots north at the wall; player 1 stands behind it, player 2 before it.
-        let mut three = crew(&flat(), &[wall.clone()], tier, 3, 3);
+        let mut three = crew(&flat(), core::slice::from_ref(&wall), tier, 3, 3);
         three.put(0, [0.0, 0.0, 0.0], [0.0; 3]);
         three.put(1, [0.2, 11.0, 0.0], [0.0; 3]);
         three.put(2, [4.0, 8.0, 0.0], [0.0; 3]);
@@ -217,7 +217,7 @@ fn a_player_inside_a_solid_can_leave_and_never_hangs() {
     let block = cuboid([8.0, 8.0, 8.0], [0.0, 0.0, 4.0]);
     for tier in TIERS {
         for start in [[0.0, 0.0, 1.0], [3.8, 0.0, 2.0], [0.0, 3.9, 7.9], [0.0, 0.0, 7.95]] {
-            let mut one = alone(&flat(), &[block.clone()], tier);
+            let mut one = alone(&flat(), core::slice::from_ref(&block), tier);
             one.put(0, start, [0.0; 3]);
             one.set(0, &[("yaw", &[-core::f64::consts::FRAC_PI_2])]);
             for tick in 0..400 {
@@ -237,7 +237,7 @@ fn a_player_inside_a_solid_can_leave_and_never_hangs() {
 fn armors_stand_off_a_wall_by_half_their_width() {
     let wall = cuboid([1.0, 40.0, 40.0], [10.5, 0.0, 0.0]);
     for (armor, half) in [("light", 0.5), ("medium", 0.7), ("heavy", 0.8)] {
-        let built = Arc::new(Solids::new(&[wall.clone()], flat().grid()).unwrap());
+        let built = Arc::new(Solids::new(core::slice::from_ref(&wall), flat().grid()).unwrap());
         let map = flat();
         let mut s = setup(&map, "reference");
         (s.scene, s.armor, s.solids) = ("mission", armor, Some(&built));

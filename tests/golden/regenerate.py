@@ -16,7 +16,7 @@ from discjump.envs.vector import SkiVectorEnv
 
 FILE = Path(__file__).with_name("digests.json")
 TERRAIN_SEEDS = (0, 1, 7, 10_000, 2**64 - 1)
-TIERS = ("authentic", "reference")
+TIERS = ("authentic", "reference", "swept", "fast", "engine")
 NUM_ENVS, DECISIONS = 48, 500
 
 

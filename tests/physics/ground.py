@@ -2,6 +2,8 @@
 
 import itertools
 import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,7 +41,67 @@ class Plane:
         return (p[2] - self.height(p[0], p[1])) * self.normal[2]
 
 
-class Ground:
+@dataclass(frozen=True)
+class Hit:
+    fraction: float
+    """Of the path that was swept."""
+    normal: Vec
+
+
+class Surface(ABC):
+    """What a path can meet."""
+
+    @abstractmethod
+    def pieces(self, p: Vec, d: Vec) -> list[tuple[float, float, Plane]]:
+        """The path p to p + d as (start, end, triangle), in order."""
+
+    @abstractmethod
+    def plane_at(self, x: float, y: float) -> Plane:
+        """Of the triangle above and below (x, y)."""
+
+    def sweep(self, p: Vec, d: Vec) -> Hit | None:
+        """The first triangle that the path p to p + d hits from above (section 5)."""
+        for start, end, plane in self.pieces(p, d):
+            if dot(d, plane.normal) >= 0.0:
+                continue
+            s0, s1 = plane.distance(along(p, d, start)), plane.distance(along(p, d, end))
+            if s0 <= 0.0:
+                return Hit(start, plane.normal)
+            if s1 < 0.0:
+                return Hit(start + (end - start) * s0 / (s0 - s1), plane.normal)
+        return None
+
+    def crossing(self, p: Vec, d: Vec) -> Hit | None:
+        """The first passage from either side; on the surface counts as below (section 8).
+
+        The side is carried from piece to piece: rounding at an edge cannot let a path slip through."""
+        above: bool | None = None
+        for start, end, plane in self.pieces(p, d):
+            s0, s1 = plane.distance(along(p, d, start)), plane.distance(along(p, d, end))
+            if above is None:
+                above = s0 > 0.0
+            if (s0 > 0.0) != above:
+                return Hit(start, plane.normal)
+            if (s1 > 0.0) != above:
+                return Hit(start + (end - start) * s0 / (s0 - s1), plane.normal)
+        return None
+
+
+class Incline(Surface):
+    """One plane without an end, through the origin: falls by `degrees` towards `bearing` (0 is +y)."""
+
+    def __init__(self, degrees: float, bearing: float = 0.0) -> None:
+        slope = math.tan(math.radians(degrees))
+        self.plane = Plane((0.0, 0.0, 0.0), slope * math.sin(bearing), -slope * math.cos(bearing))
+
+    def pieces(self, p: Vec, d: Vec) -> list[tuple[float, float, Plane]]:
+        return [(0.0, 1.0, self.plane)]
+
+    def plane_at(self, x: float, y: float) -> Plane:
+        return self.plane
+
+
+class Ground(Surface):
     """Squares cut in a checkerboard; beyond the rim the map again (tile) or the rim's heights (clamp)."""
 
     def __init__(self, terrain: discjump.Terrain) -> None:
@@ -96,7 +158,6 @@ class Ground:
         return self.plane(i, j, self.below_cut(i, j, x, y) > TIE)
 
     def pieces(self, p: Vec, d: Vec) -> list[tuple[float, float, Plane]]:
-        """The path p to p + d as (start, end, triangle), in order."""
         times = {0.0, 1.0}
         for axis in (0, 1):
             first = (p[axis] - self.origin[axis]) / self.side
@@ -122,12 +183,3 @@ class Ground:
                 lower = self.below_cut(i, j, inside[0], inside[1]) > TIE
                 found.append((a, b, self.plane(i, j, lower)))
         return found
-
-    def sweep(self, p: Vec, d: Vec) -> Vec | None:
-        """Normal of the first triangle that the path p to p + d hits from above (section 5)."""
-        for start, end, plane in self.pieces(p, d):
-            if dot(d, plane.normal) >= 0.0:
-                continue
-            if plane.distance(along(p, d, start)) <= 0.0 or plane.distance(along(p, d, end)) < 0.0:
-                return plane.normal
-        return None

@@ -7,8 +7,11 @@ from numpy.typing import NDArray
 
 import discjump
 
-from .article import ARMORS, Keys, Player, Rules, tick
-from .ground import Ground
+from .article import ARMORS, Keys, Player, Rules
+from .blast import explode
+from .disc import Launcher
+from .ground import Ground, Vec
+from .world import World
 
 #: m and m/s: what section 12 expects of a correct float64 implementation.
 TOLERANCE = 1e-6
@@ -33,6 +36,16 @@ def player_of(state: np.void) -> Player:
     )
 
 
+def keys_of(row: np.void) -> Keys:
+    return Keys(
+        forward=int(row["forward"]),
+        strafe=int(row["strafe"]),
+        jump=bool(row["jump"]),
+        jet=bool(row["jet"]),
+        turn=float(row["turn"]),
+    )
+
+
 class Pair:
     """Both hold the same players. `start` changes fields of the fresh state, for all or one by one."""
 
@@ -46,16 +59,33 @@ class Pair:
         tick_ms: int = 32,
         hysteresis: bool = True,
         ski_bug: bool = False,
+        scene: str = "sandbox",
+        launcher: Launcher | None = None,
         **start: Any,
     ) -> None:
+        launcher = launcher or Launcher()
+        weapon: dict[str, Any] = (
+            {}
+            if launcher.weapon == "disc"
+            else {"weapon": "grenade" if launcher.weapon == "grenade_launcher" else launcher.weapon}
+        )
+        armed: dict[str, Any] = {
+            "knockback": launcher.formula,
+            "cutoff": launcher.cutoff,
+            "accel": launcher.accel,
+            "disc": launcher.disc,
+        }
         self.simulator = discjump.Simulator(
             terrain,
             num_players,
-            scene="sandbox",
+            scene=scene,
+            **weapon,
             armor=armor,
             energy_pack=energy_pack,
             fidelity="reference",
-            physics=discjump.Physics(ski_bug=ski_bug, hysteresis=hysteresis),
+            physics=discjump.Physics(
+                ski_bug=ski_bug, hysteresis=hysteresis, **(armed if scene != "sandbox" else {})
+            ),
             tick_ms=tick_ms,
             threads=1,
         )
@@ -67,6 +97,11 @@ class Pair:
             state[name] = value
         self.simulator.set_state(state)
         self.players = [player_of(row) for row in state]
+        self.worlds = [World(player, self.ground, self.rules, launcher) for player in self.players]
+        self.launcher = launcher
+        #: Where discs burst in the last tick, by shooter, and how many did so far.
+        self.last_bursts: list[list[Vec]] = [[] for _ in self.players]
+        self.bursts = 0
         self.ticks = 0
         #: Largest difference so far: position (m), velocity (m/s).
         self.worst = np.zeros(2)
@@ -80,19 +115,24 @@ class Pair:
     def step(self, inputs: NDArray[np.void], ticks: int = 1) -> None:
         for _ in range(ticks):
             self.simulator.step(inputs)
-            for i, (player, row) in enumerate(zip(self.players, inputs, strict=True)):
-                keys = Keys(
-                    forward=int(row["forward"]),
-                    strafe=int(row["strafe"]),
-                    jump=bool(row["jump"]),
-                    jet=bool(row["jet"]),
-                    turn=float(row["turn"]),
-                )
-                tick(player, keys, self.ground, self.rules)
-                self.contacts[i] += len(player.contacts)
-                self.most_contacts = max(self.most_contacts, len(player.contacts))
+            for i, (world, row) in enumerate(zip(self.worlds, inputs, strict=True)):
+                self.last_bursts[i] = world.step(keys_of(row), float(row["pitch"]), bool(row["fire"]))
+                self.bursts += len(self.last_bursts[i])
+                self.contacts[i] += len(world.player.contacts)
+                self.most_contacts = max(self.most_contacts, len(world.player.contacts))
             self.ticks += 1
             self.compare()
+
+    def explode(self, points: NDArray[np.float64]) -> None:
+        """One explosion for every player; none where the row is NaN."""
+        self.simulator.explode(points)
+        arms = self.launcher
+        for player, (x, y, z) in zip(self.players, points.tolist(), strict=True):
+            if not np.isnan(x):
+                explode(
+                    player, self.rules.armor, (x, y, z), self.ground, arms.charge, arms.formula, arms.cutoff
+                )
+        self.compare()
 
     def own(self, name: str) -> NDArray[Any]:
         return np.array([getattr(player, name) for player in self.players])
@@ -108,6 +148,12 @@ class Pair:
         for name in ("position", "velocity", "energy", "damage", "friction", "jump_normal"):
             where = f"tick {self.ticks}, {name}"
             np.testing.assert_allclose(state[name], self.own(name), rtol=0.0, atol=TOLERANCE, err_msg=where)
+        if "ammo" in (state.dtype.names or ()):
+            shooters = [world.shooter for world in self.worlds]
+            np.testing.assert_array_equal(state["ammo"], [s.ammo for s in shooters], f"tick {self.ticks}")
+            # The simulator counts a tick off when it begins, this model when it ends.
+            wait = np.maximum(state["cooldown"] - 1, 0)
+            np.testing.assert_array_equal(wait, [s.wait for s in shooters], f"tick {self.ticks}")
         turned = np.abs(np.sin(0.5 * (state["yaw"] - self.own("yaw"))))  # -pi and pi are one view
         assert turned.max() < TOLERANCE, f"tick {self.ticks}, yaw"
         for name in ("jetting", "touched", "crawled", "jump_age"):

@@ -46,9 +46,10 @@ SCENES = {
 }
 WEAPONS = ("disc", "grenade", "mortar")
 ARMORS = ("light", "medium", "heavy")
+#: Fidelity tiers for playing and training (core/docs/tiers.md says what each does, drops and costs).
 FIDELITIES = ("reference", "authentic", "swept", "fast", "engine")
-#: For measurement only: the most literal reading of the article, which tunnels through creases.
-MEASURED = (*FIDELITIES, "anyway")
+#: Those of a `Simulator`: also the literal reading that tunnels, to be measured and not to be played.
+SIMULATOR_FIDELITIES = (*FIDELITIES, "anyway")
 
 
 _CHOICES = {
@@ -64,7 +65,7 @@ class Physics:
     """Switches of the movement model (core/docs/physics.md, section 12)."""
 
     #: Whether the last contact that a tick allows (the fourth; in `engine` the third) stops the player
-    #: dead. None: in `engine` it does, in the other tiers it does not.
+    #: dead. None: in `engine` it does, elsewhere not. `fast` never gets there.
     ski_bug: bool | None = None
     #: Whether jets go out at an energy of 1 and light again at 5. Without it an empty tank gives free thrust.
     hysteresis: bool = True
@@ -161,7 +162,7 @@ class Simulator:
             _check.flag("energy_pack", energy_pack),
             _check.choice("weapon", weapon, WEAPONS),
             None if ammo is None else _check.integer("ammo", ammo, 0, 1_000_000),
-            _check.choice("fidelity", fidelity, MEASURED),
+            _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
             switches,
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),
@@ -188,8 +189,8 @@ class Simulator:
 
         position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
         crawled, friction, jump_normal (3), jump_age (i4, ms; ticks in `engine`), bump_limits (i4, ticks that
-        ended at the bump limit), cooldown (i4, ticks until the launcher can fire), ammo (i4). Numbers are f8
-        in `reference`, else f4; fields of what the scene does not model are absent.
+        ended at the bump limit), cooldown (i4, 56 after the tick of a disc's shot; 1 and 0 can fire), ammo
+        (i4). Numbers are f8 in `reference`, else f4; fields of what the scene does not model are absent.
         """
         return self._native.state_dtype
 

@@ -52,7 +52,7 @@ class SkiOptions:
     """Terrains to draw from in place of generated ones, all of one size."""
 
     fidelity: str = "authentic"
-    """Fidelity tier: `authentic` (float32) or `reference` (float64)."""
+    """Fidelity tier: `reference` (float64), or in float32 `authentic`, `swept`, `fast` or `engine`."""
 
     armor: str = "light"
     """Armor of the player."""
