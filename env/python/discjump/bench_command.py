@@ -1,8 +1,5 @@
 """`discjump bench`: agent steps a second through each way in, by batch size."""
 
-import json
-import os
-import platform
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +9,8 @@ import click
 import gymnasium
 import numpy as np
 from numpy.typing import NDArray
+
+from discjump._results import machine, save
 
 ENV_ID = "discjump/Ski-v0"
 Step = Callable[[NDArray[Any]], object]
@@ -69,14 +68,7 @@ def bench(
                 {"num_envs": size, "way": name, "median": median, "quartiles": [low, high], "rates": rates}
             )
     click.echo(table(rows))
-    machine = {
-        "processor": _processor(),
-        "cores": os.cpu_count(),
-        "python": platform.python_version(),
-        "threads": threads,
-    }
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(json.dumps({"machine": machine, "frame_skip": 4, "rows": rows}, indent=1) + "\n")
+    save(out, {"machine": {**machine(), "threads": threads}, "frame_skip": 4, "rows": rows})
     click.echo(str(out))
 
 
@@ -142,12 +134,3 @@ def _rate(step: Step, actions: list[NDArray[Any]], size: int, seconds: float) ->
         step(actions[calls % len(actions)])
         calls += 1
     return calls * size / elapsed
-
-
-def _processor() -> str:
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        return platform.processor()
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return models[0] if models else platform.processor()

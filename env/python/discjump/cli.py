@@ -8,6 +8,7 @@ from importlib.metadata import EntryPoint, entry_points
 import click
 
 from discjump import __version__
+from discjump.accuracy.command import accuracy
 from discjump.bench_command import bench
 from discjump.falloff_command import falloff
 from discjump.terrain_command import terrain
@@ -54,6 +55,7 @@ def main() -> None:
     """
 
 
+main.add_command(accuracy)
 main.add_command(bench)
 main.add_command(falloff)
 main.add_command(terrain)

@@ -6,8 +6,8 @@ from typing import Any
 import click
 import numpy as np
 
+from discjump._results import require_matplotlib, save
 from discjump.explosions import falloff as curve
-from discjump.terrain_command import save
 
 FORMULAS = {"tribes": "tribes", "basic": "basic", "linear_boosted": "linear, boosted by 26/11"}
 """Formulas and what the picture calls them."""
@@ -41,7 +41,7 @@ def falloff(radius: float, min_box: float, farthest: float, cutoff: str, out: Pa
     Distances are in m. The push is without dimension: times 150 for a disc, over the mass (light 9, medium
     13, heavy 18), it is a change of velocity in m/s. The defaults are a disc and a light.
     """
-    _require_matplotlib()
+    require_matplotlib("discjump falloff")
     distance = np.linspace(0.0, farthest, 901)
     power = {name: curve(distance, name, radius, min_box, cutoff)[0] for name in FORMULAS}
     share = curve(distance, "tribes", radius, min_box, cutoff)[1]
@@ -92,13 +92,3 @@ def draw(figures: dict[str, Any], path: Path) -> None:
     axes.grid(alpha=0.3)
     axes.legend()
     figure.savefig(path, dpi=120)
-
-
-def _require_matplotlib() -> None:
-    try:
-        import matplotlib.figure  # noqa: F401
-    except ImportError as error:
-        raise click.ClickException(
-            f"discjump falloff needs the package matplotlib, which is not installed ({error}): "
-            "pip install matplotlib"
-        ) from error

@@ -1,13 +1,13 @@
 """`discjump terrain`: statistics of generated terrain against their windows, and its picture."""
 
-import json
 import time
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import click
 
 from discjump._native import Terrain
+from discjump._results import save
 from discjump.envs import command_map
 
 SEED = click.IntRange(0, 2**64 - 1)
@@ -113,12 +113,6 @@ def save_picture(terrain: Terrain, path: Path, size: int) -> None:
     (west, south), (width, height) = terrain.origin, terrain.size
     window = command_map.Window(west, south, max(width, height))
     Image.fromarray(command_map.finished(command_map.ground(terrain, window, size))).save(path)
-
-
-def save(path: Path, figures: dict[str, Any]) -> None:
-    """Write figures as JSON."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(figures, indent=1) + "\n")
 
 
 def _check_range(first: int, last: int, repeating: bool, out: Path) -> None:
