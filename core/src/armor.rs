@@ -36,6 +36,10 @@ pub struct Armor {
     pub height: f64,
     /// Factor of the damage by explosions.
     pub explosion_scale: f64,
+    /// Factor of the damage by shrapnel: grenades.
+    pub shrapnel_scale: f64,
+    /// Factor of the damage by mortar shells.
+    pub mortar_scale: f64,
 }
 
 /// Light armor.
@@ -56,6 +60,8 @@ pub const LIGHT: Armor = Armor {
     half_width: 0.5,
     height: 2.3,
     explosion_scale: 1.0,
+    shrapnel_scale: 1.2,
+    mortar_scale: 1.3,
 };
 
 /// Medium armor.
@@ -76,6 +82,8 @@ pub const MEDIUM: Armor = Armor {
     half_width: 0.7,
     height: 2.4,
     explosion_scale: 1.0,
+    shrapnel_scale: 1.0,
+    mortar_scale: 1.0,
 };
 
 /// Heavy armor.
@@ -96,6 +104,8 @@ pub const HEAVY: Armor = Armor {
     half_width: 0.8,
     height: 2.6,
     explosion_scale: 0.6,
+    shrapnel_scale: 0.8,
+    mortar_scale: 0.7,
 };
 
 /// Every armor, by its public name.

@@ -37,6 +37,21 @@ impl<R: Real> Input<R> {
         }
     }
 
+    /// The input of one lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn lane(&self, lane: usize) -> Input<R::Scalar> {
+        Input {
+            forward: self.forward.lane(lane),
+            strafe: self.strafe.lane(lane),
+            jump: self.jump.lane(lane),
+            jet: self.jet.lane(lane),
+            fire: self.fire.lane(lane),
+            turn: self.turn.lane(lane),
+            pitch: self.pitch.lane(lane),
+        }
+    }
+
     /// Overwrites one lane.
     pub fn set_lane(&mut self, lane: usize, input: &Input<R::Scalar>) {
         self.forward.set_lane(lane, input.forward);

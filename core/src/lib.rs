@@ -1,6 +1,6 @@
 //! The movement of Tribes 1 (skiing, jetting, disc jumping) as a batched simulator.
 //!
-//! Nothing here knows of Python, and nothing but terrain loading touches a file. Dependencies point
+//! Nothing here knows of Python, and nothing but loading touches a file. Dependencies point
 //! down only; a lower room that used an upper one could no longer be tested, or vectorised, alone:
 //!
 //! ```text
@@ -8,8 +8,10 @@
 //!   task, observe           what an episode is, and what an agent sees
 //!     tick                  one player, one tick: a pure function
 //!       movement, forces    how he moves, and what pushes him
-//!         terrain           heights, normals, sweeps; generated maps and their statistics
+//!       flight, blast       how he fires, how projectiles fly, what their explosions do
+//!         terrain, solids   heights, normals, sweeps; generated maps and their statistics; bases, bridges, towers
 //!           player, scene   his state, and which parts of it a scene models
+//!           arms            his launcher and its projectiles: constants and state
 //!             armor, rules  constants
 //!             real          the number type: f64, f32, later lanes
 //! random                    counted draws, used by terrain, task and batch
@@ -17,8 +19,11 @@
 //! ```
 
 pub mod armor;
+pub mod arms;
 pub mod batch;
+pub mod blast;
 pub mod error;
+pub mod flight;
 mod float_environment;
 pub mod forces;
 pub mod input;
@@ -29,6 +34,7 @@ pub mod random;
 pub mod real;
 pub mod rules;
 pub mod scene;
+pub mod solids;
 pub mod task;
 pub mod terrain;
 pub mod tick;

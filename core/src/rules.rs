@@ -1,6 +1,7 @@
 //! What is uniform over a batch: armor, tick length and switches, rounded once to the tier's type.
 
 use crate::armor::{self, Armor};
+use crate::error::{InputError, refuse};
 use crate::real::Scalar;
 
 /// The two movement models (docs/physics.md, section 12): a tier has one of them, so whoever asks
@@ -92,6 +93,40 @@ impl Default for Physics {
     }
 }
 
+impl Knockback {
+    /// Each by its public name.
+    pub const NAMES: [(&str, Self); 3] =
+        [("tribes", Self::Tribes), ("basic", Self::Basic), ("linear_boosted", Self::LinearBoosted)];
+}
+
+impl Cutoff {
+    /// Each by its public name.
+    pub const NAMES: [(&str, Self); 2] = [("engine", Self::Engine), ("radius", Self::Radius)];
+}
+
+impl Acceleration {
+    /// Each by its public name.
+    pub const NAMES: [(&str, Self); 3] =
+        [("nominal", Self::Nominal), ("none", Self::None), ("mass", Self::Mass)];
+}
+
+impl DiscFlight {
+    /// Each by its public name.
+    pub const NAMES: [(&str, Self); 2] = [("surface", Self::Surface), ("engine", Self::Engine)];
+}
+
+/// The value of a public name.
+///
+/// # Errors
+/// If there is none; the message names the argument and the names there are.
+pub fn named<T: Copy>(argument: &str, name: &str, names: &[(&str, T)]) -> Result<T, InputError> {
+    if let Some((_, value)) = names.iter().find(|(known, _)| *known == name) {
+        return Ok(*value);
+    }
+    let known: Vec<_> = names.iter().map(|(known, _)| format!("{known:?}")).collect();
+    refuse!("{argument}: expected one of {}, got {name:?}", known.join(", "))
+}
+
 /// Constants per tick, in the arithmetic of the tier.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules<T> {
@@ -139,6 +174,10 @@ pub struct Rules<T> {
     pub mass: T,
     /// What the armor makes of an explosion's damage.
     pub explosion_scale: T,
+    /// What it makes of a grenade's.
+    pub shrapnel_scale: T,
+    /// What it makes of a mortar shell's.
+    pub mortar_scale: T,
     /// Switches.
     pub physics: Physics,
 }
@@ -177,6 +216,8 @@ impl<T: Scalar> Rules<T> {
             height: t(armor.height),
             mass: t(armor.mass),
             explosion_scale: t(armor.explosion_scale),
+            shrapnel_scale: t(armor.shrapnel_scale),
+            mortar_scale: t(armor.mortar_scale),
             physics,
         }
     }

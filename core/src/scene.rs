@@ -17,6 +17,11 @@ pub trait Group<V: Copy>: Copy + Debug + Send + Sync + 'static {
     fn get(&self, absent: V) -> V;
     /// Overwrites the value; nothing where the scene does not model it.
     fn set(&mut self, value: V);
+    /// The value in place, for groups too large to be copied about; none where the scene does not
+    /// model it.
+    fn as_mut(&mut self) -> Option<&mut V>;
+    /// The value in place, to read.
+    fn as_ref(&self) -> Option<&V>;
 }
 
 /// A group that the scene models.
@@ -41,6 +46,14 @@ impl<V: Copy + Debug + Send + Sync + 'static> Group<V> for Has<V> {
     fn set(&mut self, value: V) {
         self.0 = value;
     }
+    #[inline(always)]
+    fn as_mut(&mut self) -> Option<&mut V> {
+        Some(&mut self.0)
+    }
+    #[inline(always)]
+    fn as_ref(&self) -> Option<&V> {
+        Some(&self.0)
+    }
 }
 
 impl<V: Copy> Group<V> for Absent {
@@ -55,6 +68,38 @@ impl<V: Copy> Group<V> for Absent {
     }
     #[inline(always)]
     fn set(&mut self, _value: V) {}
+    #[inline(always)]
+    fn as_mut(&mut self) -> Option<&mut V> {
+        None
+    }
+    #[inline(always)]
+    fn as_ref(&self) -> Option<&V> {
+        None
+    }
+}
+
+/// Every feature that a scene may model. `flags` belong to tasks; no scene has them yet.
+pub const FEATURES: [&str; 9] =
+    ["jump", "jet", "energy", "landing_damage", "discs", "blast", "solids", "flags", "bump_limits"];
+
+/// A scene by name, and its lists.
+#[derive(Clone, Debug)]
+pub struct Listed {
+    /// The public name.
+    pub name: &'static str,
+    /// See [`Scene::models`].
+    pub models: Vec<&'static str>,
+    /// See [`Scene::leaves_out`].
+    pub leaves_out: Vec<&'static str>,
+}
+
+/// Every scene.
+#[must_use]
+pub fn scenes() -> [Listed; 4] {
+    fn listed<S: Scene>() -> Listed {
+        Listed { name: S::NAME, models: S::models(), leaves_out: S::leaves_out() }
+    }
+    [listed::<Ski>(), listed::<Sandbox>(), listed::<DiscJump>(), listed::<Mission>()]
 }
 
 /// The list of what a scene models.
@@ -73,6 +118,8 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
     type Damage<R: Real>: Group<R>;
     /// Count of the ticks that ended at the bump limit, for those who measure the movement.
     type BumpLimits<R: Real>: Group<R::Int>;
+    /// A launcher and its projectiles. They lie beside the player, in the same block.
+    type Arms<R: Real>: Group<crate::arms::Arms<R>>;
     /// Whether explosions push and hurt.
     const BLAST: bool;
     /// Whether solids stand in the way.
@@ -86,6 +133,7 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
             (Self::Jet::<f32>::MODELED, "jet"),
             (Self::Energy::<f32>::MODELED, "energy"),
             (Self::Damage::<f32>::MODELED, "landing_damage"),
+            (Self::Arms::<f32>::MODELED, "discs"),
             (Self::BLAST, "blast"),
             (Self::SOLIDS, "solids"),
             (Self::BumpLimits::<f32>::MODELED, "bump_limits"),
@@ -93,6 +141,13 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
         .into_iter()
         .filter_map(|(modeled, name)| modeled.then_some(name))
         .collect()
+    }
+
+    /// The features that it leaves out: not stored, not computed, not observed.
+    #[must_use]
+    fn leaves_out() -> Vec<&'static str> {
+        let models = Self::models();
+        FEATURES.into_iter().filter(|feature| !models.contains(feature)).collect()
     }
 }
 
@@ -108,6 +163,7 @@ impl Scene for Ski {
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
     type BumpLimits<R: Real> = Absent;
+    type Arms<R: Real> = Absent;
     const BLAST: bool = false;
     const SOLIDS: bool = false;
 }
@@ -124,6 +180,41 @@ impl Scene for Sandbox {
     type Energy<R: Real> = Has<R>;
     type Damage<R: Real> = Has<R>;
     type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Absent;
     const BLAST: bool = true;
     const SOLIDS: bool = false;
+}
+
+/// Disc jumping over bare terrain: everything that moves a player, and his launcher.
+#[derive(Clone, Copy, Debug)]
+pub struct DiscJump;
+
+impl Scene for DiscJump {
+    const NAME: &'static str = "disc_jump";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
+    const BLAST: bool = true;
+    const SOLIDS: bool = false;
+}
+
+/// The whole game's movement: as [`DiscJump`], with solids.
+#[derive(Clone, Copy, Debug)]
+pub struct Mission;
+
+impl Scene for Mission {
+    const NAME: &'static str = "mission";
+    const JUMP: bool = true;
+    type Contact<R: Real> = Has<crate::player::Contact<R>>;
+    type Jet<R: Real> = Has<R::Mask>;
+    type Energy<R: Real> = Has<R>;
+    type Damage<R: Real> = Has<R>;
+    type BumpLimits<R: Real> = Has<R::Int>;
+    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
+    const BLAST: bool = true;
+    const SOLIDS: bool = true;
 }

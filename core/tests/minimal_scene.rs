@@ -19,6 +19,7 @@ impl Scene for Walk {
     const BLAST: bool = false;
     const SOLIDS: bool = false;
     type BumpLimits<R: Real> = Absent;
+    type Arms<R: Real> = Absent;
     type Contact<R: Real> = Absent;
     type Jet<R: Real> = Absent;
     type Energy<R: Real> = Absent;

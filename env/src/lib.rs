@@ -1,17 +1,23 @@
 //! Python bindings of `discjump-core`: thin, typed in `_native.pyi`, re-exported by the package.
 //!
 //! * `terrain`: `Terrain`
+//! * `solids`: what stands on one
 //! * `simulator`: `Simulator`, bodies without a task
 //! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `blast`: the explosion formulas for arrays
+//! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
+mod blast;
 mod errors;
+mod physics;
 mod pools;
 mod simulator;
 mod ski;
+mod solids;
 mod terrain;
 
 use pyo3::prelude::*;
@@ -20,9 +26,13 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::simulator::Simulator;
+    use crate::blast::blast_falloff;
+    #[pymodule_export]
+    use crate::simulator::{Simulator, scenes};
     #[pymodule_export]
     use crate::ski::SkiBatch;
+    #[pymodule_export]
+    use crate::solids::load_mesh;
     #[pymodule_export]
     use crate::terrain::Terrain;
 }

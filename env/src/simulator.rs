@@ -1,10 +1,10 @@
 //! `Simulator`: bodies without a task. The package wraps it; here arrays are bytes.
 
-use crate::arrays::{dtype, structured};
+use crate::arrays::{dtype, rows, structured};
 use crate::errors::refused;
+use crate::physics::PhysicsArgument;
 use crate::terrain::Terrain;
-use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
-use discjump_core::rules::Physics;
+use discjump_core::batch::{Bodies, RawInput, Shot, SimulatorSetup};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -18,15 +18,6 @@ const INPUT_BYTES: usize = size_of::<RawInput>();
 #[pyclass(module = "discjump._native")]
 pub struct Simulator {
     bodies: Box<dyn Bodies>,
-}
-
-/// The switches of a `discjump.Physics`.
-pub fn physics(value: Option<(Option<bool>, bool)>) -> Physics {
-    value.map_or_else(Physics::default, |(ski_bug, hysteresis)| Physics {
-        ski_bug,
-        hysteresis,
-        ..Physics::default()
-    })
 }
 
 impl Simulator {
@@ -44,27 +35,35 @@ pub fn state_fields(fields: &[discjump_core::player::Field]) -> Vec<(&'static st
 #[pymethods]
 impl Simulator {
     #[new]
-    #[pyo3(signature = (terrain, num_players, scene, armor, energy_pack, fidelity, physics, tick_ms, threads))]
+    #[pyo3(signature = (terrain, num_players, players_per_world, scene, armor, energy_pack, weapon, ammo, fidelity,
+        physics, tick_ms, threads))]
     #[expect(clippy::too_many_arguments, reason = "the package's constructor names them")]
     fn new(
         terrain: &Terrain,
         num_players: usize,
+        players_per_world: usize,
         scene: &str,
         armor: &str,
         energy_pack: bool,
+        weapon: &str,
+        ammo: Option<i32>,
         fidelity: &str,
-        physics: Option<(Option<bool>, bool)>,
+        physics: PhysicsArgument,
         tick_ms: u32,
         threads: Option<usize>,
     ) -> PyResult<Self> {
         let setup = SimulatorSetup {
             terrain: &terrain.heightfield,
+            solids: terrain.solids.built.as_ref(),
             players: num_players,
+            players_per_world,
             scene,
             armor,
             energy_pack,
+            weapon,
+            ammo,
             fidelity,
-            physics: self::physics(physics),
+            physics: physics.switches()?,
             tick_ms,
             threads,
         };
@@ -77,10 +76,10 @@ impl Simulator {
         self.bodies.len()
     }
 
-    /// What the scene models.
+    /// The scene's name.
     #[getter]
-    fn models(&self) -> Vec<&'static str> {
-        self.bodies.models()
+    fn scene(&self) -> &'static str {
+        self.bodies.scene()
     }
 
     /// Bytes that one player takes in memory.
@@ -121,6 +120,23 @@ impl Simulator {
         }
     }
 
+    /// One explosion per player at points (num_players, 3), m; NaN: none.
+    fn explode(&mut self, py: Python<'_>, points: &Bound<'_, PyAny>, weapon: &str) -> PyResult<()> {
+        let (points, _) = rows(py, "points", points, &[3])?;
+        let points: Vec<[f64; 3]> = points.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+        self.bodies.explode(&points, weapon).map_err(refused)
+    }
+
+    /// The projectiles that burst in the last tick: structured.
+    fn blasts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shots(py, &self.bodies.blasts(), "normal")
+    }
+
+    /// The projectiles under way: structured.
+    fn projectiles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shots(py, &self.bodies.projectiles(), "aim")
+    }
+
     /// Everything, as bytes that `restore` takes.
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.bodies.snapshot())
@@ -135,6 +151,27 @@ impl Simulator {
     fn digest(&self) -> String {
         self.bodies.digest()
     }
+}
+
+/// Projectiles as a structured array; `axis` names what their axis is.
+fn shots<'py>(py: Python<'py>, shots: &[Shot], axis: &str) -> PyResult<Bound<'py, PyAny>> {
+    let mut bytes = Vec::new();
+    for shot in shots {
+        bytes.extend((shot.player as i64).to_le_bytes());
+        let reals = shot.position.iter().chain(&shot.velocity).chain(&shot.axis);
+        reals.for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes.extend(shot.age.to_le_bytes());
+    }
+    let vector = |name| (name, "<f8", 3);
+    let fields =
+        [("player", "<i8", 1), vector("position"), vector("velocity"), vector(axis), ("age", "<i4", 1)];
+    structured(py, &fields, &bytes)
+}
+
+/// Every scene: name, what it models, what it leaves out.
+#[pyfunction]
+pub fn scenes() -> Vec<(&'static str, Vec<&'static str>, Vec<&'static str>)> {
+    discjump_core::scene::scenes().into_iter().map(|s| (s.name, s.models, s.leaves_out)).collect()
 }
 
 fn read_input(bytes: &[u8]) -> RawInput {

@@ -2,6 +2,7 @@
 
 use crate::arrays::{array1, as_float64, rows};
 use crate::errors::refused;
+use crate::solids::{SolidArgument, Standing};
 use discjump_core::terrain::mission::{Area, Mission};
 use discjump_core::terrain::statistics::Report;
 use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
@@ -25,12 +26,17 @@ pub struct Terrain {
     maps: Maps,
     mission: Option<Mission>,
     seed: Option<u64>,
+    pub solids: Standing,
 }
 
 impl Terrain {
     fn new(heightfield: Heightfield, mission: Option<Mission>, seed: Option<u64>) -> PyResult<Self> {
         let maps = Maps::new(core::slice::from_ref(&heightfield)).map_err(refused)?;
-        Ok(Self { heightfield, maps, mission, seed })
+        let solids = match &mission {
+            Some(mission) => Standing::of_mission(mission, &heightfield, &maps)?,
+            None => Standing::default(),
+        };
+        Ok(Self { heightfield, maps, mission, seed, solids })
     }
 
     /// Where episodes take place: the mission area, or the whole map.
@@ -169,9 +175,40 @@ impl Terrain {
         dict.set_item("bridge_centre", array1(py, mission.bridge.centre.to_vec()))?;
         dict.set_item("bridge_ends", pair(mission.bridge.ends)?)?;
         dict.set_item("bridge_width", mission.bridge.width)?;
+        dict.set_item("bridge_deck_top", mission.bridge.deck_top)?;
         dict.set_item("area_min", array1(py, mission.area.min.to_vec()))?;
         dict.set_item("area_max", array1(py, mission.area.max.to_vec()))?;
         Ok(Some(dict))
+    }
+
+    /// What stands on it: a list of `discjump.Solid`. A generated terrain has the bases and the bridge of
+    /// its mission. Only scenes that model solids look at them.
+    #[getter]
+    fn solids<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let class = py.import("discjump.solids")?.getattr("Solid")?;
+        self.solids.parts().into_iter().map(|parts| class.call1(parts)).collect()
+    }
+
+    /// The same terrain with other solids: a sequence of `discjump.Solid`, `terrain.solids + [...]` to add.
+    ///
+    /// Raises ValueError, naming the solid and its face, for what is no closed body or stands outside the
+    /// map.
+    fn with_solids(&self, py: Python<'_>, solids: Vec<SolidArgument>) -> PyResult<Self> {
+        Ok(Self {
+            heightfield: self.heightfield.clone(),
+            maps: self.maps.clone(),
+            mission: self.mission.clone(),
+            seed: self.seed,
+            solids: Standing::of(py, solids, &self.heightfield)?,
+        })
+    }
+
+    /// 32 hexadecimal digits that name what stands on it.
+    fn solids_digest(&self) -> String {
+        self.solids
+            .built
+            .as_ref()
+            .map_or_else(|| "0".repeat(32), |solids| format!("{:032x}", solids.digest()))
     }
 
     /// Height of the ground at points (n, 2), float64 (n,), m; NaN where there is none.

@@ -1,8 +1,10 @@
 //! Players as bytes: field by field, little-endian, NaN canonical, padding lanes left out.
 
-use crate::player::{FieldVisitor, Player, visit};
+use super::stage::Body;
+use crate::arms::{self, Arms};
+use crate::player::{Describe, Field, FieldVisitor, Player, fields, visit};
 use crate::real::Scalar;
-use crate::scene::Scene;
+use crate::scene::{Group, Scene};
 use crate::terrain::Maps;
 use glam::{DVec3, IVec2};
 
@@ -81,4 +83,36 @@ pub(super) fn write_state<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, ou
 /// If there are too few bytes: callers check.
 pub(super) fn read_player<S: Scene, T: Scalar>(p: &mut Player<S, T>, place: bool, bytes: &[u8]) {
     visit(p, &mut Reader(bytes), place);
+}
+
+/// The fields of a body: with `whole` everything, as in a snapshot; else the public state without the
+/// world position.
+pub(super) fn body_fields<S: Scene, T: Scalar>(whole: bool) -> Vec<Field> {
+    let mut all = Describe(fields::<S, T>(whole));
+    walk_arms::<T>(&mut S::Arms::<T>::new(Arms::empty()), &mut all, whole);
+    all.0
+}
+
+/// Appends a body's fields; see [`body_fields`].
+pub(super) fn write_body<S: Scene, T: Scalar>(body: &Body<S, T>, whole: bool, out: &mut Vec<u8>) {
+    write_player(&body.player, whole, out);
+    walk_arms::<T>(&mut body.arms.clone(), &mut Writer(out), whole);
+}
+
+/// Reads a body's fields over `body`.
+///
+/// # Panics
+/// If there are too few bytes: callers check.
+pub(super) fn read_body<S: Scene, T: Scalar>(body: &mut Body<S, T>, whole: bool, bytes: &[u8]) {
+    let mut reader = Reader(bytes);
+    visit(&mut body.player, &mut reader, whole);
+    walk_arms::<T>(&mut body.arms, &mut reader, whole);
+}
+
+fn walk_arms<T: Scalar>(group: &mut impl Group<Arms<T>>, v: &mut impl FieldVisitor<T>, whole: bool) {
+    match group.as_mut() {
+        Some(arms) if whole => arms::visit(arms, v),
+        Some(arms) => arms::visit_launcher(arms, v),
+        None => {}
+    }
 }

@@ -1,13 +1,16 @@
 //! Many players: threads, snapshots, digests, and the two batches users step.
 
 mod codec;
+mod crowd;
 mod environment;
+mod neighbourhood;
 mod pool;
 mod raw_input;
 mod simulator;
 mod snapshot;
+mod stage;
 
 pub use environment::{Autoreset, Environments, ResetRequest, SkiEnvironments, Status, StepOutput};
 pub use pool::{INLINE_BELOW, MAX_THREADS};
 pub use raw_input::RawInput;
-pub use simulator::{Bodies, MAX_PLAYERS, MAX_SPEED, SimulatorSetup};
+pub use simulator::{Bodies, MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, MAX_SPEED, Shot, SimulatorSetup};

@@ -78,8 +78,14 @@ impl Movement for Fast {
             if W::BODIES {
                 let mut from = at;
                 from.position = start;
-                let blocked = world.sweep_bodies(&from, rest, goes_on);
-                goal = V3::select(blocked.hit, start, goal);
+                let met = world.sweep_bodies(&from, rest, goes_on);
+                let second = goes_on.and(met.hit);
+                if second.any() {
+                    let there = start + rest * met.fraction;
+                    p.position = V3::select(second, there, p.position);
+                    tally.meet(p, world, (&from, rest, there), (&met, second), rules);
+                    goal = V3::select(second, p.position, goal);
+                }
             }
             p.position = V3::select(goes_on, goal, p.position);
 

@@ -63,7 +63,8 @@ pub trait FieldVisitor<T: Scalar> {
     fn flag(&mut self, name: &'static str, value: &mut bool);
 }
 
-fn vector<T: Scalar>(v: &mut impl FieldVisitor<T>, name: &'static str, x: &mut V3<T>) {
+/// Shows a vector to a visitor.
+pub fn visit_vector<T: Scalar>(v: &mut impl FieldVisitor<T>, name: &'static str, x: &mut V3<T>) {
     let mut a = [x.x, x.y, x.z];
     v.reals(name, &mut a);
     [x.x, x.y, x.z] = a;
@@ -77,12 +78,12 @@ fn real<T: Scalar>(v: &mut impl FieldVisitor<T>, name: &'static str, x: &mut T) 
 /// positions another form leave it out.
 pub fn visit<S: Scene, T: Scalar>(p: &mut Player<S, T>, v: &mut impl FieldVisitor<T>, place: bool) {
     if place {
-        vector(v, "local_position", &mut p.position);
+        visit_vector(v, "local_position", &mut p.position);
         v.int("tile_x", &mut p.tile_x);
         v.int("tile_y", &mut p.tile_y);
         v.int("map", &mut p.map);
     }
-    vector(v, "velocity", &mut p.velocity);
+    visit_vector(v, "velocity", &mut p.velocity);
     real(v, "yaw", &mut p.yaw);
     real(v, "pitch", &mut p.pitch);
     if S::Energy::<T>::MODELED {
@@ -105,7 +106,7 @@ pub fn visit<S: Scene, T: Scalar>(p: &mut Player<S, T>, v: &mut impl FieldVisito
     real(v, "friction", &mut p.friction);
     if S::Contact::<T>::MODELED {
         let mut contact = p.contact.get(Contact { normal: V3::up(), age: Int::splat(0) });
-        vector(v, "jump_normal", &mut contact.normal);
+        visit_vector(v, "jump_normal", &mut contact.normal);
         v.int("jump_age", &mut contact.age);
         p.contact.set(contact);
     }
@@ -116,7 +117,9 @@ pub fn visit<S: Scene, T: Scalar>(p: &mut Player<S, T>, v: &mut impl FieldVisito
     }
 }
 
-struct Describe(Vec<Field>);
+/// Lists the fields that it visits.
+#[derive(Debug, Default)]
+pub struct Describe(pub Vec<Field>);
 
 impl<T: Scalar> FieldVisitor<T> for Describe {
     fn reals(&mut self, name: &'static str, values: &mut [T]) {
@@ -136,7 +139,7 @@ impl<T: Scalar> FieldVisitor<T> for Describe {
 pub fn fields<S: Scene, T: Scalar>(place: bool) -> Vec<Field> {
     let rules =
         Rules::<T>::new(Model::Article, &crate::armor::LIGHT, false, 32, crate::rules::Physics::default());
-    let mut describe = Describe(Vec::new());
+    let mut describe = Describe::default();
     visit(&mut Player::<S, T>::new(&rules, V3::zero(), 0), &mut describe, place);
     describe.0
 }

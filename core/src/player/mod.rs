@@ -2,7 +2,7 @@
 
 mod fields;
 
-pub use fields::{Field, FieldKind, FieldVisitor, fields, packed_bytes, visit};
+pub use fields::{Describe, Field, FieldKind, FieldVisitor, fields, packed_bytes, visit, visit_vector};
 
 use crate::armor::JUMP_GRACE_MS;
 use crate::real::{Int, Mask, Real, V3};

@@ -219,5 +219,6 @@ impl<'a, T: Scalar> Surface<'a, T> {
 /// Squares from the centre beyond which there is no telling them apart: a sweep of any length from
 /// there, and the sum of a square's two indices, still count within an `i32`.
 const FARTHEST: i32 = 1 << 29;
-/// Tile counters stop here, two thousand million metres and more from the first tile.
-const MAX_TILES: i32 = 1 << 30;
+/// Tile counters stop here, two thousand million metres and more from the first tile: the difference of
+/// any two still counts within an `i32`.
+const MAX_TILES: i32 = (1 << 30) - 1;

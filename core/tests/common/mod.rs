@@ -1,10 +1,12 @@
 //! What the physics tests share: worlds of planes, and a simulator that is read by field name.
 #![allow(dead_code, missing_docs)]
 
+pub mod crew;
 pub mod crowd;
 pub mod draws;
 pub mod envs;
 pub mod lab;
+pub mod range;
 
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::player::FieldKind;
@@ -17,6 +19,11 @@ pub fn slope(degrees: f64) -> Heightfield {
     let gradient = -degrees.to_radians().tan();
     let heights = (0..rows * cols).map(|k| gradient * 8.0 * ((k % cols) as f64 - 256.0)).collect();
     Heightfield::new(heights, rows, cols, 8.0, [-2048.0, -16.0], Edge::Clamp).unwrap()
+}
+
+/// Flat ground at height 0, 8 km square.
+pub fn flat() -> Heightfield {
+    Heightfield::new(vec![0.0; 9], 3, 3, 4096.0, [-4096.0, -4096.0], Edge::Clamp).unwrap()
 }
 
 /// A valley along y with faces of so many degrees, lowest at x = 0.
@@ -66,10 +73,14 @@ pub fn world(terrain: &Heightfield, fidelity: &str) -> World {
 pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<'a> {
     SimulatorSetup {
         terrain,
+        solids: None,
         players: 1,
+        players_per_world: 1,
         scene: "sandbox",
         armor: "light",
         energy_pack: false,
+        weapon: "disc",
+        ammo: None,
         fidelity,
         physics: Physics::default(),
         tick_ms: 32,
@@ -77,60 +88,69 @@ pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<
     }
 }
 
-impl World {
-    /// Byte offset of a field of a state, and its type and count.
-    fn field(&self, name: &str) -> (usize, FieldKind, usize) {
-        if name == "position" {
-            return (0, FieldKind::Real { double: true }, 3);
-        }
-        let mut at = 24;
-        for f in self.sim.state_fields() {
-            if f.name == name {
-                return (at, f.kind, f.count);
-            }
-            at += f.kind.bytes() * f.count;
-        }
-        panic!("no field {name}");
+/// Byte offset of a field of a state, and its type and count.
+fn field(sim: &dyn Bodies, name: &str) -> (usize, FieldKind, usize) {
+    if name == "position" {
+        return (0, FieldKind::Real { double: true }, 3);
     }
+    let mut at = 24;
+    for f in sim.state_fields() {
+        if f.name == name {
+            return (at, f.kind, f.count);
+        }
+        at += f.kind.bytes() * f.count;
+    }
+    panic!("no field {name}");
+}
 
+/// A field of a packed state.
+pub fn read_field(sim: &dyn Bodies, state: &[u8], name: &str) -> Vec<f64> {
+    let (at, kind, count) = field(sim, name);
+    (0..count)
+        .map(|k| {
+            let b = &state[at + k * kind.bytes()..];
+            match kind {
+                FieldKind::Real { double: true } => f64::from_le_bytes(b[..8].try_into().unwrap()),
+                FieldKind::Real { double: false } => {
+                    f64::from(f32::from_le_bytes(b[..4].try_into().unwrap()))
+                }
+                FieldKind::Int => f64::from(i32::from_le_bytes(b[..4].try_into().unwrap())),
+                FieldKind::Flag => f64::from(b[0]),
+            }
+        })
+        .collect()
+}
+
+/// Overwrites fields of a packed state.
+pub fn write_fields(sim: &dyn Bodies, state: &mut [u8], fields: &[(&str, &[f64])]) {
+    for &(name, values) in fields {
+        let (at, kind, count) = field(sim, name);
+        assert_eq!(values.len(), count, "{name}");
+        for (k, &v) in values.iter().enumerate() {
+            let at = at + k * kind.bytes();
+            match kind {
+                FieldKind::Real { double: true } => state[at..at + 8].copy_from_slice(&v.to_le_bytes()),
+                FieldKind::Real { double: false } => {
+                    state[at..at + 4].copy_from_slice(&(v as f32).to_le_bytes());
+                }
+                FieldKind::Int => state[at..at + 4].copy_from_slice(&(v as i32).to_le_bytes()),
+                FieldKind::Flag => state[at] = v as u8,
+            }
+        }
+    }
+}
+
+impl World {
     /// A field of player 0.
     pub fn get(&self, name: &str) -> Vec<f64> {
-        let (at, kind, count) = self.field(name);
-        let state = self.sim.state();
-        (0..count)
-            .map(|k| {
-                let b = &state[at + k * kind.bytes()..];
-                match kind {
-                    FieldKind::Real { double: true } => f64::from_le_bytes(b[..8].try_into().unwrap()),
-                    FieldKind::Real { double: false } => {
-                        f64::from(f32::from_le_bytes(b[..4].try_into().unwrap()))
-                    }
-                    FieldKind::Int => f64::from(i32::from_le_bytes(b[..4].try_into().unwrap())),
-                    FieldKind::Flag => f64::from(b[0]),
-                }
-            })
-            .collect()
+        read_field(&*self.sim, &self.sim.state(), name)
     }
 
     /// Overwrites fields of player 0.
     pub fn set(&mut self, fields: &[(&str, &[f64])]) {
         let stride = self.sim.state_bytes();
         let mut state = self.sim.state()[..stride].to_vec();
-        for &(name, values) in fields {
-            let (at, kind, count) = self.field(name);
-            assert_eq!(values.len(), count, "{name}");
-            for (k, &v) in values.iter().enumerate() {
-                let at = at + k * kind.bytes();
-                match kind {
-                    FieldKind::Real { double: true } => state[at..at + 8].copy_from_slice(&v.to_le_bytes()),
-                    FieldKind::Real { double: false } => {
-                        state[at..at + 4].copy_from_slice(&(v as f32).to_le_bytes());
-                    }
-                    FieldKind::Int => state[at..at + 4].copy_from_slice(&(v as i32).to_le_bytes()),
-                    FieldKind::Flag => state[at] = v as u8,
-                }
-            }
-        }
+        write_fields(&*self.sim, &mut state, fields);
         self.sim.set_state(&[0], &state).unwrap();
     }
 

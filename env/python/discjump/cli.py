@@ -9,6 +9,7 @@ import click
 
 from discjump import __version__
 from discjump.bench_command import bench
+from discjump.falloff_command import falloff
 from discjump.terrain_command import terrain
 
 GROUP = "discjump.commands"
@@ -54,6 +55,7 @@ def main() -> None:
 
 
 main.add_command(bench)
+main.add_command(falloff)
 main.add_command(terrain)
 
 

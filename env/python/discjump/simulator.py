@@ -27,23 +27,69 @@ INPUT = np.dtype(
     align=True,
 )
 
-SCENES = ("ski", "sandbox")
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene: what it models is all that its players store and compute."""
+
+    #: The public name.
+    name: str
+    #: The features in it.
+    models: tuple[str, ...]
+    #: The features that it leaves out.
+    leaves_out: tuple[str, ...]
+
+
+#: Every scene by its name.
+SCENES = {
+    name: Scene(name, tuple(models), tuple(leaves_out)) for name, models, leaves_out in _native.scenes()
+}
+WEAPONS = ("disc", "grenade", "mortar")
 ARMORS = ("light", "medium", "heavy")
-#: Fidelity tiers for playing and training (core/docs/tiers.md says what each does, drops and costs).
 FIDELITIES = ("reference", "authentic", "swept", "fast", "engine")
-#: Those of a `Simulator`: also the literal reading that tunnels, to be measured and not to be played.
-SIMULATOR_FIDELITIES = (*FIDELITIES, "anyway")
+#: For measurement only: the most literal reading of the article, which tunnels through creases.
+MEASURED = (*FIDELITIES, "anyway")
+
+
+_CHOICES = {
+    "knockback": ("tribes", "basic", "linear_boosted"),
+    "cutoff": ("engine", "radius"),
+    "accel": ("nominal", "none", "mass"),
+    "disc": ("surface", "engine"),
+}
 
 
 @dataclass(frozen=True)
 class Physics:
     """Switches of the movement model (core/docs/physics.md, section 12)."""
 
-    #: Whether the last contact that a tick allows (the fourth, in `engine` the third) stops the player dead;
-    #: None: in `engine` it does, elsewhere not. `fast` never gets there.
+    #: Whether the last contact that a tick allows (the fourth; in `engine` the third) stops the player
+    #: dead. None: in `engine` it does, in the other tiers it does not. `fast` has no such limit.
     ski_bug: bool | None = None
     #: Whether jets go out at an energy of 1 and light again at 5. Without it an empty tank gives free thrust.
     hysteresis: bool = True
+    #: `swept` only: whether a contact at once no longer pushes the player out of the surface.
+    clamp_fixup: bool = False
+    #: `swept` only: whether the move that redoes the last slice is swept as well.
+    fixup_swept: bool = False
+    #: How the push of an explosion falls off: "tribes", "basic" or "linear_boosted".
+    knockback: str = "tribes"
+    #: How far an explosion reaches: "engine" (radius and smallest box side) or "radius".
+    cutoff: str = "engine"
+    #: How discs accelerate to 80 m/s: "nominal" (5 m/s^2), "none" or "mass" (2.5 m/s^2).
+    accel: str = "nominal"
+    #: How discs fly: "surface" (swept, bursting where they meet something) or "engine" (the 1998 clock of
+    #: 33 ms, unaccelerated, bursting at the place before).
+    disc: str = "surface"
+
+    def __post_init__(self) -> None:
+        """Check the types and names."""
+        if self.ski_bug is not None:
+            _check.flag("ski_bug", self.ski_bug)
+        for name in ("hysteresis", "clamp_fixup", "fixup_swept"):
+            _check.flag(name, getattr(self, name))
+        for name, choices in _CHOICES.items():
+            _check.choice(name, getattr(self, name), choices)
 
 
 class Simulator:
@@ -73,20 +119,30 @@ class Simulator:
         tick_ms: int = 32,
         threads: int | None = None,
         seed: int = 0,
+        *,
+        players_per_world: int = 1,
+        weapon: str = "disc",
+        ammo: int | None = None,
     ) -> None:
         """Make a simulator.
 
         Args:
             terrain: where they move.
-            num_players: how many, each alone in the world.
-            scene: "ski" or "sandbox".
+            num_players: how many in all.
+            scene: "ski", "sandbox" (explosions as well), "disc_jump" (a launcher as well) or "mission" (the
+                terrain's solids as well); `SCENES` lists what each models.
             armor: "light", "medium" or "heavy".
             energy_pack: whether they wear one: 3 energy/s more.
-            fidelity: "reference" (float64), or in float32 "authentic", "swept", "fast", "engine" or "anyway".
+            fidelity: "reference" (float64), "authentic", "swept", "fast" or "engine" (float32); see
+                core/docs/tiers.md. "anyway" is there to be measured only: it tunnels.
             physics: switches of the movement model.
             tick_ms: tick length, 1 to 1000 ms; the game's is 32.
             threads: 1 to 256; None for one per core. The bits do not depend on it.
-            seed: for scenes that draw something; these two draw nothing.
+            seed: for scenes that draw something; none of these does.
+            players_per_world: how many share a world, 1 to 256, a divisor of num_players: players 0 to n - 1
+                the first one, and so on. They block each other; discs and explosions act on all of them.
+            weapon: "disc", "grenade" or "mortar", where the scene models discs.
+            ammo: shots of a fresh player; None for the weapon's own number, 15.
 
         Raises:
             ValueError: an argument out of range or unknown, with what was expected.
@@ -99,11 +155,14 @@ class Simulator:
         self._native = _native.Simulator(
             terrain,
             _whole("num_players", num_players),
+            _whole("players_per_world", players_per_world),
             _check.choice("scene", scene, SCENES),
             _check.choice("armor", armor, ARMORS),
             _check.flag("energy_pack", energy_pack),
-            _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
-            (switches.ski_bug, switches.hysteresis),
+            _check.choice("weapon", weapon, WEAPONS),
+            None if ammo is None else _check.integer("ammo", ammo, 0, 1_000_000),
+            _check.choice("fidelity", fidelity, MEASURED),
+            switches,
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),
         )
@@ -114,9 +173,9 @@ class Simulator:
         return self._native.num_players
 
     @property
-    def models(self) -> list[str]:
-        """What the scene models."""
-        return self._native.models
+    def scene(self) -> Scene:
+        """The scene: `scene.models` is in, `scene.leaves_out` is not."""
+        return SCENES[self._native.scene]
 
     @property
     def player_bytes(self) -> int:
@@ -128,8 +187,9 @@ class Simulator:
         """The structured dtype of a state.
 
         position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
-        crawled, friction, jump_normal (3), jump_age (i4, ms; in `engine` ticks). Numbers are f8 in
-        `reference`, else f4; fields of what the scene does not model are absent.
+        crawled, friction, jump_normal (3), jump_age (i4, ms; ticks in `engine`), bump_limits (i4, ticks that
+        ended at the bump limit), cooldown (i4, ticks until the launcher can fire), ammo (i4). Numbers are f8
+        in `reference`, else f4; fields of what the scene does not model are absent.
         """
         return self._native.state_dtype
 
@@ -180,6 +240,40 @@ class Simulator:
         if ticks >= 2**32:
             raise ValueError(f"ticks: expected 0 to 2^32 - 1, got {ticks}")
         self._native.step(_packed("inputs", inputs, INPUT, self.num_players), ticks)
+
+    def explode(self, points: ArrayLike, weapon: str = "disc") -> None:
+        """Set off one explosion per player, at once; nothing stays pending.
+
+        It acts on every player of the player's world. A scene with solids counts what of a body the point
+        sees; over bare terrain it sees all, unless it lies more than 5 cm below the surface.
+
+        Args:
+            points: shape (num_players, 3), m; a row with a NaN is no explosion.
+            weapon: "disc", "grenade" or "mortar".
+
+        Raises:
+            ValueError: another shape, a point out of range, or a scene that models no explosions. Then
+                nothing was changed.
+
+        >>> import discjump, numpy as np
+        >>> sim = discjump.Simulator(discjump.Terrain.from_heights(np.zeros((3, 3))), threads=1)
+        >>> sim.explode(sim.state()["position"])  # at the feet of a light
+        >>> sim.state()["velocity"][0, 2].round(1)
+        np.float32(16.6)
+        """
+        self._native.explode(points, _check.choice("weapon", weapon, WEAPONS))
+
+    def blasts(self) -> NDArray[np.void]:
+        """The projectiles that burst in the last tick, in the order of their shooters.
+
+        Structured, shape (n,): player (i8, who fired), position (3 x f8, m), velocity (3 x f8, m/s), normal
+        (3 x f8, of what was met), age (i4, ticks since the shot). What `explode` sets off is not among them.
+        """
+        return self._native.blasts()
+
+    def projectiles(self) -> NDArray[np.void]:
+        """The projectiles under way, as in `blasts`, with aim (3 x f8) instead of normal."""
+        return self._native.projectiles()
 
     def snapshot(self) -> bytes:
         """Everything, as bytes that `restore` takes."""

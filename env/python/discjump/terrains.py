@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from discjump import _check
 from discjump._native import Terrain
+from discjump.solids import Solid
 
 TRAINING_SEEDS = tuple(range(16))
 """Seeds of the default pool."""
@@ -59,17 +60,29 @@ def checked_seeds(seeds: object) -> tuple[int, ...]:
 def _reduced(terrain: Terrain) -> tuple[Any, tuple[Any, ...]]:
     """How to make a terrain again: copies and pickles of one have the same bits."""
     if terrain.seed is None:
-        return _from_heights, (terrain.heights, terrain.square_size, terrain.origin, terrain.edge)
+        given = (terrain.heights, terrain.square_size, terrain.origin, terrain.edge)
+        return _from_heights, (*given, terrain.solids)
     for repeating in (False, True):
-        if generated(terrain.seed, repeating).digest() == terrain.digest():
-            return generated, (terrain.seed, repeating)
+        bare = generated(terrain.seed, repeating)
+        if bare.digest() == terrain.digest():
+            if bare.solids_digest() == terrain.solids_digest():
+                return generated, (terrain.seed, repeating)
+            return _with_solids, (terrain.seed, repeating, terrain.solids)
     raise ValueError(f"terrain: expected what its seed {terrain.seed} generates, got other bits")
 
 
 def _from_heights(
-    heights: NDArray[Any], square_size: float, origin: tuple[float, float], edge: str
+    heights: NDArray[Any],
+    square_size: float,
+    origin: tuple[float, float],
+    edge: str,
+    solids: list[Solid],
 ) -> Terrain:
-    return Terrain.from_heights(heights, square_size, origin, edge)
+    return Terrain.from_heights(heights, square_size, origin, edge).with_solids(solids)
+
+
+def _with_solids(seed: int, repeating: bool, solids: list[Solid]) -> Terrain:
+    return generated(seed, repeating).with_solids(solids)
 
 
 # gymnasium copies the keyword arguments of an environment, and workers of other processes get them pickled.

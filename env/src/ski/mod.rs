@@ -2,8 +2,9 @@
 
 use crate::arrays::{Buffers, Flags, array1, structured};
 use crate::errors::refused;
+use crate::physics::PhysicsArgument;
 use crate::pools::pool;
-use crate::simulator::{physics, state_fields};
+use crate::simulator::state_fields;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
 use discjump_core::observe::{CLIP, SkiObservation};
@@ -54,7 +55,7 @@ impl SkiBatch {
         fidelity: String,
         armor: String,
         energy_pack: bool,
-        physics: Option<(Option<bool>, bool)>,
+        physics: PhysicsArgument,
         tick_ms: u32,
         frame_skip: u32,
         actions: &str,
@@ -85,7 +86,7 @@ impl SkiBatch {
             fidelity,
             armor,
             energy_pack,
-            physics: self::physics(physics),
+            physics: physics.switches()?,
             tick_ms,
             task: SkiTask {
                 frame_skip,

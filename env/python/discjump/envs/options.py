@@ -169,7 +169,7 @@ class SkiOptions:
             fidelity=self.fidelity,
             armor=self.armor,
             energy_pack=self.energy_pack,
-            physics=(self.physics.ski_bug, self.physics.hysteresis),
+            physics=self.physics,
             tick_ms=self.tick_ms,
             frame_skip=self.frame_skip,
             actions=self.actions,

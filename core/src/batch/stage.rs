@@ -1,0 +1,247 @@
+//! One tick of a world, phase by phase (docs/physics.md, section 12, "order of a tick"): view and
+//! trigger, moves, flights, explosions.
+
+use super::neighbourhood::{Neighbourhood, Stand, vector};
+use crate::arms::{Arms, Arsenal, Projectile};
+use crate::blast::{Explosive, body_points, coverage_on_terrain, seen_from, strike};
+use crate::flight::{fire, fly};
+use crate::input::Input;
+use crate::movement::{Movement, Obstacles};
+use crate::player::{Place, Player};
+use crate::real::{Mask, Real, Scalar, V3};
+use crate::rules::Rules;
+use crate::scene::{Group, Scene};
+use crate::solids::Solids;
+use crate::terrain::{Maps, Surface};
+use crate::tick::{act, look};
+
+/// A player and what he has fired.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Body<S: Scene, R: Real> {
+    pub(super) player: Player<S, R>,
+    pub(super) arms: S::Arms<R>,
+}
+
+impl<S: Scene, R: Real> Body<S, R> {
+    #[inline(always)]
+    pub(super) fn lane(&self, lane: usize) -> Body<S, R::Scalar> {
+        let mut arms = S::Arms::<R::Scalar>::new(Arms::empty());
+        if let (Some(one), Some(all)) = (arms.as_mut(), self.arms.as_ref()) {
+            *one = all.lane(lane);
+        }
+        Body { player: self.player.lane(lane), arms }
+    }
+
+    #[inline(always)]
+    pub(super) fn set_lane(&mut self, lane: usize, body: &Body<S, R::Scalar>) {
+        self.player.set_lane(lane, &body.player);
+        if let (Some(all), Some(one)) = (self.arms.as_mut(), body.arms.as_ref()) {
+            all.set_lane(lane, one);
+        }
+    }
+}
+
+/// How far along the contact normal the rays start that a blast sees by, m.
+const LIFTED: f64 = 0.05;
+/// Slack of the broad phase: what the step of an engine disc may be longer than a tick, s; a step up
+/// and rounding, m.
+const SLACK: (f64, f64) = (0.034, 1.0);
+
+/// What all worlds of a batch have in common.
+pub(super) struct Stage<'a, T: Scalar> {
+    pub(super) surface: Surface<'a, T>,
+    pub(super) maps: &'a Maps,
+    /// None where the scene models none, or none stand.
+    pub(super) solids: Option<&'a Solids>,
+    pub(super) rules: &'a Rules<T>,
+    pub(super) arsenal: &'a Arsenal<T>,
+}
+
+impl<T: Scalar> Stage<'_, T> {
+    /// A tick of players who are alone in their worlds.
+    #[inline(always)]
+    pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
+        &self,
+        body: &mut Body<S, R>,
+        input: &Input<R>,
+    ) {
+        self.aim(body, input);
+        let near = self.near_solids(body);
+        if !near.any() {
+            self.play::<S, M, R, _>(body, input, &self.surface);
+            return;
+        }
+        // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
+        let before = *body;
+        if R::LANES > 1 {
+            self.play::<S, M, R, _>(body, input, &self.surface);
+        }
+        for lane in (0..R::LANES).filter(|&lane| near.lane(lane)) {
+            let mut one = before.lane(lane);
+            let world = Neighbourhood { stage: self, stands: &[], me: 0 };
+            self.play::<S, M, T, _>(&mut one, &input.lane(lane), &world);
+            body.set_lane(lane, &one);
+        }
+    }
+
+    /// A tick of several players in one world. They move one after the other, each past the others as
+    /// they stand at that moment; so nobody passes through anybody at any speed.
+    pub(super) fn tick_world<S: Scene, M: Movement>(
+        &self,
+        bodies: &mut [Body<S, T>],
+        inputs: &[Input<T>],
+        stands: &mut Vec<Stand>,
+    ) {
+        bodies.iter_mut().zip(inputs).for_each(|(body, input)| self.aim(body, input));
+        stands.clear();
+        stands.extend(bodies.iter().map(|body| Stand::of(&body.player.place())));
+        for me in 0..bodies.len() {
+            let world = Neighbourhood { stage: self, stands, me };
+            self.advance::<S, M, T, _>(&mut bodies[me].player, &inputs[me], &world);
+            stands[me] = Stand::of(&bodies[me].player.place());
+        }
+        for (me, body) in bodies.iter_mut().enumerate() {
+            let map = body.player.map;
+            if let Some(arms) = body.arms.as_mut() {
+                fly(arms, map, &Neighbourhood { stage: self, stands, me }, self.arsenal);
+            }
+        }
+        for shooter in 0..bodies.len() {
+            let Some(slots) = bodies[shooter].arms.as_ref().map(|arms| arms.slots) else { return };
+            for shot in slots.iter().filter(|shot| shot.burst()) {
+                for (me, body) in bodies.iter_mut().enumerate() {
+                    let world = Neighbourhood { stage: self, stands, me };
+                    self.suffer(&mut body.player, shot, true, &world);
+                }
+            }
+        }
+    }
+
+    /// View and trigger.
+    #[inline(always)]
+    fn aim<S: Scene, R: Real<Scalar = T>>(&self, body: &mut Body<S, R>, input: &Input<R>) {
+        look(&mut body.player, input, self.rules);
+        if let Some(arms) = body.arms.as_mut() {
+            fire(arms, &body.player, input.fire, self.arsenal);
+        }
+    }
+
+    /// The move, and the position back in its tile.
+    #[inline(always)]
+    fn advance<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
+        &self,
+        p: &mut Player<S, R>,
+        input: &Input<R>,
+        world: &W,
+    ) {
+        act::<S, M, R, W>(p, input, world, self.rules);
+        (p.position.x, p.position.y, p.tile_x, p.tile_y) =
+            self.surface.wrap::<R>(p.position.x, p.position.y, p.tile_x, p.tile_y);
+    }
+
+    /// Everything after the trigger, for players alone in their worlds.
+    #[inline(always)]
+    fn play<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
+        &self,
+        body: &mut Body<S, R>,
+        input: &Input<R>,
+        world: &W,
+    ) {
+        self.advance::<S, M, R, W>(&mut body.player, input, world);
+        let Some(arms) = body.arms.as_mut() else { return };
+        fly(arms, body.player.map, world, self.arsenal);
+        for shot in &arms.slots {
+            let burst = shot.burst();
+            if burst.any() {
+                self.suffer_alone(&mut body.player, shot, burst);
+            }
+        }
+    }
+
+    /// The shooter's own bursts, where he is alone.
+    #[inline(always)]
+    fn suffer_alone<S: Scene, R: Real<Scalar = T>>(
+        &self,
+        p: &mut Player<S, R>,
+        shot: &Projectile<R>,
+        burst: R::Mask,
+    ) {
+        if S::SOLIDS && self.solids.is_some() {
+            for lane in (0..R::LANES).filter(|&lane| burst.lane(lane)) {
+                let mut one = p.lane(lane);
+                let world = Neighbourhood { stage: self, stands: &[], me: 0 };
+                self.suffer(&mut one, &shot.lane(lane), true, &world);
+                p.set_lane(lane, &one);
+            }
+            return;
+        }
+        let at = seen_from(p, &shot.place(p.map), &self.surface);
+        let coverage = coverage_on_terrain(&self.surface, p.map, at);
+        strike(p, at, burst, coverage, &self.arsenal.explosive, self.rules);
+    }
+
+    /// What a burst does to one player of the world.
+    fn suffer<S: Scene>(
+        &self,
+        p: &mut Player<S, T>,
+        shot: &Projectile<T>,
+        struck: bool,
+        world: &Neighbourhood<'_, T>,
+    ) {
+        let at = seen_from(p, &shot.place(p.map), &self.surface);
+        let eye = at + shot.axis * T::from_f64(LIFTED);
+        self.explode(p, at, eye, struck, &self.arsenal.explosive, world);
+    }
+
+    /// What an explosion at `at`, seen from `eye`, does to one player; both in his local frame, m.
+    pub(super) fn explode<S: Scene>(
+        &self,
+        p: &mut Player<S, T>,
+        at: V3<T>,
+        eye: V3<T>,
+        struck: bool,
+        explosive: &Explosive<T>,
+        world: &Neighbourhood<'_, T>,
+    ) {
+        let coverage = if self.solids.is_some() {
+            let from = Place { position: eye, ..p.place() };
+            let blocked = |point: V3<T>| world.line(&from, point - eye, true).hit;
+            let free = body_points(p, self.rules).into_iter().filter(|&point| !blocked(point)).count();
+            T::from_f64(0.25 * free as f64)
+        } else {
+            coverage_on_terrain(&self.surface, p.map, at)
+        };
+        strike(p, at, struck, coverage, explosive, self.rules);
+    }
+
+    /// Whose tick, or whose projectiles', may meet a solid.
+    #[inline(always)]
+    fn near_solids<S: Scene, R: Real<Scalar = T>>(&self, body: &Body<S, R>) -> R::Mask {
+        let mut near = R::Mask::splat(false);
+        if !S::SOLIDS {
+            return near;
+        }
+        let Some(solids) = self.solids else { return near };
+        for lane in 0..R::LANES {
+            let one = body.lane(lane);
+            let mut close = self.reaches(solids, &one.player.place(), one.player.velocity);
+            if let Some(arms) = one.arms.as_ref() {
+                let mut flying = arms.slots.iter().filter(|shot| shot.flying());
+                close = close || flying.any(|s| self.reaches(solids, &s.place(one.player.map), s.velocity));
+            }
+            near.set_lane(lane, close);
+        }
+        near
+    }
+
+    /// Whether something at a place and velocity may meet a solid within the tick.
+    #[inline(always)]
+    fn reaches(&self, solids: &Solids, at: &Place<T>, velocity: V3<T>) -> bool {
+        let r = self.rules;
+        let gains = r.jump.to_f64() + r.jet.to_f64() + r.grip.to_f64() - r.fall.to_f64();
+        let (time, metres) = SLACK;
+        let reach = (vector(velocity).length() + gains) * (r.dt.to_f64() + time) + r.height.to_f64() + metres;
+        let world = self.maps.to_world(vector(at.position), (at.tile_x, at.tile_y).into());
+        solids.near(world.x, world.y, world.z, reach)
+    }
+}
