@@ -1,7 +1,7 @@
 //! One tick of a world, phase by phase (docs/physics.md, section 12, "order of a tick"): view and
 //! trigger, moves, flights, explosions.
 
-use super::neighbourhood::{Neighbourhood, Stand, vector};
+use super::neighbourhood::{Neighbourhood, Stand};
 use crate::arms::{Arms, Arsenal, Projectile};
 use crate::blast::{Explosive, body_points, coverage_on_terrain, seen_from, strike};
 use crate::flight::{fire, fly};
@@ -14,6 +14,7 @@ use crate::scene::{Group, Scene};
 use crate::solids::Solids;
 use crate::terrain::{Maps, Surface};
 use crate::tick::{act, look};
+use glam::DVec2;
 
 /// A player and what he has fired.
 #[derive(Clone, Copy, Debug)]
@@ -43,9 +44,10 @@ impl<S: Scene, R: Real> Body<S, R> {
 
 /// How far along the contact normal the rays start that a blast sees by, m.
 const LIFTED: f64 = 0.05;
-/// Slack of the broad phase: what the step of an engine disc may be longer than a tick, s; a step up
-/// and rounding, m.
-const SLACK: (f64, f64) = (0.034, 1.0);
+/// What the step of an engine disc may be longer than a tick, s: slack of the broad phase.
+const DISC_STEP: f64 = 0.034;
+/// A step up, and rounding, m: slack of the broad phase.
+const STEP_UP: f64 = 1.0;
 
 /// What all worlds of a batch have in common.
 pub(super) struct Stage<'a, T: Scalar> {
@@ -55,9 +57,41 @@ pub(super) struct Stage<'a, T: Scalar> {
     pub(super) solids: Option<&'a Solids>,
     pub(super) rules: &'a Rules<T>,
     pub(super) arsenal: &'a Arsenal<T>,
+    range: Range,
 }
 
-impl<T: Scalar> Stage<'_, T> {
+/// What the broad phase asks of every player in every tick, worked out once.
+struct Range {
+    /// World coordinates of local (0, 0) in tile (0, 0), m.
+    centre: DVec2,
+    /// Sides of a tile, m.
+    period: DVec2,
+    /// Speed that a tick may add, m/s.
+    gain: f64,
+    /// Length of a tick, s.
+    tick: f64,
+    /// Size of a body, a step up and rounding, m.
+    size: f64,
+}
+
+impl<'a, T: Scalar> Stage<'a, T> {
+    pub(super) fn new(
+        maps: &'a Maps,
+        solids: Option<&'a Solids>,
+        rules: &'a Rules<T>,
+        arsenal: &'a Arsenal<T>,
+    ) -> Self {
+        let gain = rules.jump.to_f64() + rules.jet.to_f64() + rules.grip.to_f64() - rules.fall.to_f64();
+        let range = Range {
+            centre: maps.centre(),
+            period: maps.size(),
+            gain,
+            tick: rules.dt.to_f64(),
+            size: rules.height.to_f64() + STEP_UP,
+        };
+        Self { surface: maps.surface::<T>(), maps, solids, rules, arsenal, range }
+    }
+
     /// A tick of players who are alone in their worlds.
     #[inline(always)]
     pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
@@ -222,26 +256,44 @@ impl<T: Scalar> Stage<'_, T> {
             return near;
         }
         let Some(solids) = self.solids else { return near };
-        for lane in 0..R::LANES {
-            let one = body.lane(lane);
-            let mut close = self.reaches(solids, &one.player.place(), one.player.velocity);
-            if let Some(arms) = one.arms.as_ref() {
-                let mut flying = arms.slots.iter().filter(|shot| shot.flying());
-                close = close || flying.any(|s| self.reaches(solids, &s.place(one.player.map), s.velocity));
+        let p = &body.player;
+        self.mark_near(solids, (R::Mask::splat(true), self.range.tick), &p.place(), p.velocity, &mut near);
+        for shot in body.arms.as_ref().iter().flat_map(|arms| &arms.slots) {
+            let flying = shot.flying();
+            if flying.any() {
+                let time = self.range.tick + DISC_STEP;
+                self.mark_near(solids, (flying, time), &shot.place(p.map), shot.velocity, &mut near);
             }
-            near.set_lane(lane, close);
         }
         near
     }
 
-    /// Whether something at a place and velocity may meet a solid within the tick.
+    /// Adds those of `chosen` to `near` who may meet a solid within so many seconds.
     #[inline(always)]
-    fn reaches(&self, solids: &Solids, at: &Place<T>, velocity: V3<T>) -> bool {
-        let r = self.rules;
-        let gains = r.jump.to_f64() + r.jet.to_f64() + r.grip.to_f64() - r.fall.to_f64();
-        let (time, metres) = SLACK;
-        let reach = (vector(velocity).length() + gains) * (r.dt.to_f64() + time) + r.height.to_f64() + metres;
-        let world = self.maps.to_world(vector(at.position), (at.tile_x, at.tile_y).into());
-        solids.near(world.x, world.y, world.z, reach)
+    fn mark_near<R: Real<Scalar = T>>(
+        &self,
+        solids: &Solids,
+        (chosen, time): (R::Mask, f64),
+        at: &Place<R>,
+        velocity: V3<R>,
+        near: &mut R::Mask,
+    ) {
+        for lane in (0..R::LANES).filter(|&lane| chosen.lane(lane)) {
+            if self.reaches(solids, time, &at.lane(lane), velocity.lane(lane)) {
+                near.set_lane(lane, true);
+            }
+        }
+    }
+
+    /// Whether something at a place and velocity may meet a solid within so many seconds.
+    #[inline(always)]
+    fn reaches(&self, solids: &Solids, time: f64, at: &Place<T>, velocity: V3<T>) -> bool {
+        let range = &self.range;
+        // The sum of the components is no less than the speed.
+        let speed = (velocity.x.abs() + velocity.y.abs() + velocity.z.abs()).to_f64();
+        let reach = (speed + range.gain) * time + range.size;
+        let x = at.position.x.to_f64() + range.centre.x + f64::from(at.tile_x) * range.period.x;
+        let y = at.position.y.to_f64() + range.centre.y + f64::from(at.tile_y) * range.period.y;
+        solids.near(x, y, at.position.z.to_f64(), reach)
     }
 }

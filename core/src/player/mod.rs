@@ -39,6 +39,20 @@ pub struct Place<R: Real> {
     pub map: R::Int,
 }
 
+impl<R: Real> Place<R> {
+    /// The place in one lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn lane(&self, lane: usize) -> Place<R::Scalar> {
+        Place {
+            position: self.position.lane(lane),
+            tile_x: self.tile_x.lane(lane),
+            tile_y: self.tile_y.lane(lane),
+            map: self.map.lane(lane),
+        }
+    }
+}
+
 /// State of one player, or of as many as `R` has lanes (docs/physics.md, section 3.1).
 ///
 /// The origin is the centre of the feet. Positions are local: metres from the map's centre vertex,

@@ -103,11 +103,11 @@ impl Solids {
     #[must_use]
     #[inline]
     pub fn near(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
-        if reach <= Near::MARGIN { self.near.close(x, y, z, reach) } else { self.near_far(x, y, z, reach) }
+        (reach > Near::MARGIN || self.near.close(x, y, z, reach)) && self.near_bounds(x, y, z, reach)
     }
 
     #[cold]
-    fn near_far(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
+    fn near_bounds(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
         let point = DVec3::new(x, y, z);
         let around = Aabb::new(point - reach, point + reach);
         self.bvh.intersect_aabb(&around).next().is_some()

@@ -10,6 +10,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from discjump import bench_scenes
 from discjump._results import machine, save
 
 ENV_ID = "discjump/Ski-v0"
@@ -34,6 +35,7 @@ Step = Callable[[NDArray[Any]], object]
     show_default=True,
     help="Length of a repeat, s.",
 )
+@click.option("--scenes", is_flag=True, help="What scenes and tiers cost, without a task, instead.")
 @click.option("--quick", is_flag=True, help="3 repeats of 0.05 s: whether it runs, not how fast.")
 @click.option("--threads", type=click.IntRange(1, 256), help="Simulator threads; one per core if absent.")
 @click.option(
@@ -44,15 +46,27 @@ Step = Callable[[NDArray[Any]], object]
     help="Where the figures go (JSON).",
 )
 def bench(
-    sizes: tuple[int, ...], repeats: int, seconds: float, quick: bool, threads: int | None, out: Path
+    sizes: tuple[int, ...],
+    repeats: int,
+    seconds: float,
+    scenes: bool,
+    quick: bool,
+    threads: int | None,
+    out: Path,
 ) -> None:
     """Agent steps per second of the ski environment, random actions, full observation, autoreset.
 
     An agent step is one decision of one environment: 4 physics ticks of 32 ms. The ways in take turns within
     a repeat, so that a busy machine slows them alike; medians and quartiles over the repeats.
+
+    With --scenes: what each scene models and stores, nanoseconds per player-tick for every scene and tier on one
+    thread, 1,024 players, and what solids add.
     """
     if quick:
         repeats, seconds = 3, 0.05
+    if scenes:
+        _scenes(repeats, out)
+        return
     rows = []
     for size in sizes:
         ways = _ways(size, threads)
@@ -69,6 +83,15 @@ def bench(
             )
     click.echo(table(rows))
     save(out, {"machine": {**machine(), "threads": threads}, "frame_skip": 4, "rows": rows})
+    click.echo(str(out))
+
+
+def _scenes(repeats: int, out: Path) -> None:
+    rows = bench_scenes.measure(repeats)
+    click.echo(bench_scenes.lists())
+    click.echo()
+    click.echo(bench_scenes.table(rows))
+    save(out, {"machine": {**machine(), "threads": 1}, "players": bench_scenes.PLAYERS, "rows": rows})
     click.echo(str(out))
 
 

@@ -114,7 +114,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     }
 
     fn stage(&self) -> Stage<'_, R::Scalar> {
-        stage(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal)
+        Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal)
     }
 
     fn refuse_broken(&self) -> Result<(), InputError> {
@@ -129,15 +129,6 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         let whole = self.per_world * R::LANES;
         whole * CHUNK.div_ceil(whole)
     }
-}
-
-fn stage<'a, T: crate::real::Scalar>(
-    maps: &'a Maps,
-    solids: Option<&'a Solids>,
-    rules: &'a Rules<T>,
-    arsenal: &'a Arsenal<T>,
-) -> Stage<'a, T> {
-    Stage { surface: maps.surface::<T>(), maps, solids, rules, arsenal }
 }
 
 /// Plays ticks of blocks that hold whole worlds.
@@ -213,7 +204,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         let pool =
             if self.threads == 1 || self.count < INLINE_BELOW { None } else { Some(pool(self.threads)?) };
         let (per_world, chunk) = (self.per_world, self.chunk());
-        let stage = stage(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
+        let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
         self.broken = true;
         match pool {
             None => play::<S, M, R>(&stage, per_world, &mut self.blocks, inputs, ticks),
