@@ -1,7 +1,7 @@
 //! Solids in and out of Python, where one is a `discjump.Solid`.
 
 use crate::errors::refused;
-use discjump_core::solids::mission::solids as mission_solids;
+use discjump_core::solids::mission::{MissionSolids, solids as mission_solids};
 use discjump_core::solids::{Placement, Shape, Solid, Solids, load};
 use discjump_core::terrain::mission::Mission;
 use discjump_core::terrain::{Heightfield, Maps};
@@ -73,8 +73,18 @@ pub struct Standing {
     pub built: Option<Arc<Solids>>,
 }
 
+/// A mission's bases and bridge, and where its flags stand on them.
+pub fn of_mission(mission: &Mission, maps: &Maps) -> MissionSolids {
+    let surface = maps.surface::<f64>();
+    mission_solids(mission, |x, y| {
+        maps.to_local(DVec3::new(x, y, 0.0))
+            .map_or(0.0, |(local, _)| surface.ground::<f64>(0, local.x, local.y).height)
+    })
+}
+
 impl Standing {
-    fn new(given: Vec<Solid>, field: &Heightfield) -> PyResult<Self> {
+    /// Checks and builds solids.
+    pub fn new(given: Vec<Solid>, field: &Heightfield) -> PyResult<Self> {
         let built = match given.len() {
             0 => None,
             _ => Some(Arc::new(Solids::new(&given, field.grid()).map_err(refused)?)),
@@ -86,16 +96,6 @@ impl Standing {
     pub fn of(py: Python<'_>, given: Vec<SolidArgument>, field: &Heightfield) -> PyResult<Self> {
         let given = given.into_iter().map(SolidArgument::solid).collect::<PyResult<Vec<_>>>()?;
         py.detach(|| Self::new(given, field))
-    }
-
-    /// The bases and the bridge of a generated mission.
-    pub fn of_mission(mission: &Mission, field: &Heightfield, maps: &Maps) -> PyResult<Self> {
-        let surface = maps.surface::<f64>();
-        let ground = |x: f64, y: f64| {
-            maps.to_local(DVec3::new(x, y, 0.0))
-                .map_or(0.0, |(local, _)| surface.ground::<f64>(0, local.x, local.y).height)
-        };
-        Self::new(mission_solids(mission, ground).solids, field)
     }
 
     /// The attributes of every solid.

@@ -2,7 +2,7 @@
 
 use crate::arrays::{array1, as_float64, rows};
 use crate::errors::refused;
-use crate::solids::{SolidArgument, Standing};
+use crate::solids::{SolidArgument, Standing, of_mission};
 use discjump_core::terrain::mission::{Area, Mission};
 use discjump_core::terrain::statistics::Report;
 use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
@@ -25,6 +25,8 @@ pub struct Terrain {
     /// The same, as queries read it.
     maps: Maps,
     mission: Option<Mission>,
+    /// Where the mission's flags stand on its bases.
+    flag_stands: [[f64; 3]; 2],
     seed: Option<u64>,
     pub solids: Standing,
 }
@@ -32,11 +34,13 @@ pub struct Terrain {
 impl Terrain {
     fn new(heightfield: Heightfield, mission: Option<Mission>, seed: Option<u64>) -> PyResult<Self> {
         let maps = Maps::new(core::slice::from_ref(&heightfield)).map_err(refused)?;
-        let solids = match &mission {
-            Some(mission) => Standing::of_mission(mission, &heightfield, &maps)?,
-            None => Standing::default(),
-        };
-        Ok(Self { heightfield, maps, mission, seed, solids })
+        let (mut solids, mut flag_stands) = (Standing::default(), [[0.0; 3]; 2]);
+        if let Some(mission) = &mission {
+            let made = of_mission(mission, &maps);
+            flag_stands = made.flags;
+            solids = Standing::new(made.solids, &heightfield)?;
+        }
+        Ok(Self { heightfield, maps, mission, flag_stands, seed, solids })
     }
 
     /// Where episodes take place: the mission area, or the whole map.
@@ -164,14 +168,16 @@ impl Terrain {
         (area.min.into(), area.max.into())
     }
 
-    /// The mission, or None: a dict of flags (2, 3), bridge_centre (3,), bridge_ends (2, 3),
-    /// bridge_width, area_min (2,), area_max (2,); metres.
+    /// The mission, or None: a dict of flags (2, 3) on the ground, flag_stands (2, 3) where they stand on
+    /// its bases, bridge_centre (3,), bridge_ends (2, 3), bridge_width, bridge_deck_top, area_min (2,),
+    /// area_max (2,); metres.
     #[getter]
     fn mission<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(mission) = &self.mission else { return Ok(None) };
         let pair = |p: [[f64; 3]; 2]| array1(py, p.concat()).reshape([2, 3]);
         let dict = PyDict::new(py);
         dict.set_item("flags", pair(mission.flags)?)?;
+        dict.set_item("flag_stands", pair(self.flag_stands)?)?;
         dict.set_item("bridge_centre", array1(py, mission.bridge.centre.to_vec()))?;
         dict.set_item("bridge_ends", pair(mission.bridge.ends)?)?;
         dict.set_item("bridge_width", mission.bridge.width)?;
@@ -198,6 +204,7 @@ impl Terrain {
             heightfield: self.heightfield.clone(),
             maps: self.maps.clone(),
             mission: self.mission.clone(),
+            flag_stands: self.flag_stands,
             seed: self.seed,
             solids: Standing::of(py, solids, &self.heightfield)?,
         })

@@ -59,8 +59,8 @@ def bench(
     An agent step is one decision of one environment: 4 physics ticks of 32 ms. The ways in take turns within
     a repeat, so that a busy machine slows them alike; medians and quartiles over the repeats.
 
-    With --scenes: what each scene models and stores, nanoseconds per player-tick for every scene and tier on one
-    thread, 1,024 players, and what solids add.
+    With --scenes: what each scene models and stores, nanoseconds per player-tick for every scene and tier
+    on one thread, 1,024 players, and what solids add.
     """
     if quick:
         repeats, seconds = 3, 0.05

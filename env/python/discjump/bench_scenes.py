@@ -8,9 +8,10 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from discjump._native import Terrain
 from discjump.simulator import FIDELITIES, SCENES, Simulator
 from discjump.solids import Solid
-from discjump.terrains import Terrain, generated
+from discjump.terrains import generated
 
 PLAYERS = 1024
 #: Ticks of a call: keys are held for so long, as by an agent with a frame skip of 4.
@@ -24,7 +25,7 @@ Play = Callable[[], None]
 
 
 def measure(repeats: int) -> list[dict[str, Any]]:
-    """The rows of the table: every case is played once in each repeat, so that a busy machine slows all alike."""
+    """The rows of the table; in each repeat every case is played once, so that all are slowed alike."""
     cases = _cases()
     rows: list[dict[str, Any]] = []
     times: list[list[float]] = [[] for _ in cases]
@@ -108,10 +109,8 @@ def _towers(terrain: Terrain, count: int) -> list[Solid]:
     side = max(1, int(np.ceil(np.sqrt(count))))
     k = np.arange(count)
     xy = 200.0 + FIELD * np.stack([k % side, k // side], 1) / side
-    heights = terrain.height(xy) if count else []
-    return [
-        Solid.box((4, 4, 12), (x, y, z + 4)) for (x, y), z in zip(xy.tolist(), list(heights), strict=True)
-    ]
+    heights = terrain.height(xy).tolist()
+    return [Solid.box((4, 4, 12), (x, y, z + 4)) for (x, y), z in zip(xy.tolist(), heights, strict=True)]
 
 
 def _player(terrain: Terrain, scene: str, fidelity: str, corner: tuple[float, float]) -> Play:
