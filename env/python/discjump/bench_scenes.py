@@ -44,7 +44,7 @@ def lists() -> str:
     """What each scene models, leaves out, and stores, as Markdown.
 
     >>> print(lists().splitlines()[2])
-    | ski | jump, jet, energy, landing_damage | discs, blast, solids, flags, bump_limits | 96 / 176 |
+    | ski | jump, jet, energy, landing_damage | discs, blast, solids, flags, bump_limits | 76 / 136 |
     """
     lines = [
         "| scene | models | leaves out | bytes per player (float32 / reference) |",
