@@ -1,7 +1,7 @@
 """The movement of Tribes 1 (skiing, jetting, disc jumping), batched for reinforcement learning.
 
     _native     the simulator, compiled from Rust: Terrain, Simulator, SkiBatch
-    simulator   bodies without a task: Simulator, Physics, Scene, INPUT
+    simulator   bodies without a task: Simulator, Physics, Scene, INPUT, STATE
     solids      what stands on a terrain: Solid
     explosions  how a blast's push falls off: knockback
     terrains    generated terrains, cached
@@ -19,12 +19,12 @@ import gymnasium
 
 from discjump._native import Terrain
 from discjump.explosions import knockback
-from discjump.simulator import INPUT, SCENES, Physics, Scene, Simulator
+from discjump.simulator import INPUT, SCENES, STATE, Physics, Scene, Simulator
 from discjump.solids import Solid
 
 __version__ = version("discjump")
 
-__all__ = ["INPUT", "SCENES", "Physics", "Scene", "Simulator", "Solid", "Terrain", "__version__", "knockback"]
+__all__ = ["INPUT", "SCENES", "STATE", "Physics", "Scene", "Simulator", "Solid", "Terrain", "__version__", "knockback"]
 
 # No max_episode_steps: the core ends episodes on exact ticks, and gymnasium's TimeLimit would count twice.
 gymnasium.register(

@@ -310,3 +310,7 @@ def _packed(name: str, array: object, dtype: np.dtype[Any], rows: int) -> bytes:
     if array.shape != (rows,):
         raise ValueError(f"{name}: expected shape ({rows},), got {array.shape}")
     return array.tobytes()
+
+
+#: The structured dtype of a state in the default scene and tier.
+STATE = Simulator(Terrain.from_heights(np.zeros((2, 2))), threads=1).state_dtype
