@@ -24,7 +24,18 @@ from discjump.solids import Solid
 
 __version__ = version("discjump")
 
-__all__ = ["INPUT", "SCENES", "STATE", "Physics", "Scene", "Simulator", "Solid", "Terrain", "__version__", "knockback"]
+__all__ = [
+    "INPUT",
+    "SCENES",
+    "STATE",
+    "Physics",
+    "Scene",
+    "Simulator",
+    "Solid",
+    "Terrain",
+    "__version__",
+    "knockback",
+]
 
 # No max_episode_steps: the core ends episodes on exact ticks, and gymnasium's TimeLimit would count twice.
 gymnasium.register(
