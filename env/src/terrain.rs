@@ -7,7 +7,7 @@ use discjump_core::terrain::mission::{Area, Mission};
 use discjump_core::terrain::statistics::Report;
 use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
 use glam::DVec3;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -208,6 +208,15 @@ impl Terrain {
             seed: self.seed,
             solids: Standing::of(py, solids, &self.heightfield)?,
         })
+    }
+
+    /// Triangles of what stands on it, float64 (n, 3 corners, 3), m, counter-clockwise from outside.
+    fn solid_faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let faces = self.solids.built.iter().flat_map(|solids| solids.faces());
+        let corners: Vec<f64> =
+            faces.flat_map(|(_, corners)| corners).flat_map(|corner| corner.to_array()).collect();
+        let count = corners.len() / 9;
+        array1(py, corners).reshape([count, 3, 3])
     }
 
     /// 32 hexadecimal digits that name what stands on it.

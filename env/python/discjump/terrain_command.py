@@ -1,16 +1,24 @@
 """`discjump terrain`: statistics of generated terrain against their windows, and its picture."""
 
+from __future__ import annotations
+
 import time
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
+import numpy as np
 
 from discjump._native import Terrain
 from discjump._results import save
 from discjump.envs import command_map
 
+if TYPE_CHECKING:
+    import PIL.Image
+
 SEED = click.IntRange(0, 2**64 - 1)
+#: Of concrete in full light.
+SOLID = (206, 200, 192)
 
 
 class Row(NamedTuple):
@@ -107,12 +115,41 @@ def verdict(rows: list[Row], accepted: bool) -> str:
 
 
 def save_picture(terrain: Terrain, path: Path, size: int) -> None:
-    """One period of the terrain as a PNG of `size` x `size` pixels."""
+    """One period of the terrain and what stands on it, as a PNG of `size` x `size` pixels."""
     from PIL import Image  # not needed to step environments
 
     (west, south), (width, height) = terrain.origin, terrain.size
     window = command_map.Window(west, south, max(width, height))
-    Image.fromarray(command_map.finished(command_map.ground(terrain, window, size))).save(path)
+    picture = Image.fromarray(command_map.finished(command_map.ground(terrain, window, size)))
+    standing = _solids(terrain, window, size)
+    picture.paste(standing, mask=standing.getchannel("A"))
+    picture.save(path)
+
+
+def _solids(terrain: Terrain, window: command_map.Window, size: int) -> PIL.Image.Image:
+    """The solids' upper faces and the flags from above, lit from the north-west, on a transparent ground."""
+    from PIL import Image, ImageDraw
+
+    fine = 3  # drawn so much larger, for smooth edges
+    layer = Image.new("RGBA", (fine * size, fine * size), (*SOLID, 0))
+    draw = ImageDraw.Draw(layer)
+    faces = terrain.solid_faces()
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    light = normals @ np.array([-0.3, 0.3, 0.9]) / np.where(lengths > 0, lengths, 1)
+    scale = fine * size / window.side
+    places = (faces[:, :, :2] - (window.west, window.south)) * (scale, -scale) + (0, fine * size)
+    for k in np.argsort(faces[:, :, 2].max(axis=1)):
+        if normals[k, 2] > 0:
+            shade = tuple(int(c * np.clip(light[k], 0.4, 1)) for c in SOLID)
+            draw.polygon([(x, y) for x, y in places[k].tolist()], fill=(*shade, 255))
+    for x, y, _ in [] if terrain.mission is None else terrain.mission["flag_stands"]:
+        # They stand below a roof: shown through it.
+        centre = ((x - window.west) * scale, fine * size - (y - window.south) * scale)
+        draw.circle(
+            centre, 3.0 * fine, fill=(*command_map.FLAG, 255), outline=(*command_map.AREA, 255), width=fine
+        )
+    return layer.resize((size, size), Image.Resampling.LANCZOS)
 
 
 def _check_range(first: int, last: int, repeating: bool, out: Path) -> None:
