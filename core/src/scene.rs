@@ -151,70 +151,75 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
     }
 }
 
-/// Skiing over bare terrain: jump, jets with energy, landing damage.
-#[derive(Clone, Copy, Debug)]
-pub struct Ski;
-
-impl Scene for Ski {
-    const NAME: &'static str = "ski";
-    const JUMP: bool = true;
-    type Contact<R: Real> = Has<crate::player::Contact<R>>;
-    type Jet<R: Real> = Has<R::Mask>;
-    type Energy<R: Real> = Has<R>;
-    type Damage<R: Real> = Has<R>;
-    type BumpLimits<R: Real> = Absent;
-    type Arms<R: Real> = Absent;
-    const BLAST: bool = false;
-    const SOLIDS: bool = false;
+/// The type of a group: [`Has`] of its fields, or [`Absent`].
+macro_rules! group {
+    (has, $fields:ty) => { Has<$fields> };
+    (no, $fields:ty) => { Absent };
 }
 
-/// Physics tests and notebooks: everything that moves a player on bare terrain, and no task.
-#[derive(Clone, Copy, Debug)]
-pub struct Sandbox;
-
-impl Scene for Sandbox {
-    const NAME: &'static str = "sandbox";
-    const JUMP: bool = true;
-    type Contact<R: Real> = Has<crate::player::Contact<R>>;
-    type Jet<R: Real> = Has<R::Mask>;
-    type Energy<R: Real> = Has<R>;
-    type Damage<R: Real> = Has<R>;
-    type BumpLimits<R: Real> = Has<R::Int>;
-    type Arms<R: Real> = Absent;
-    const BLAST: bool = true;
-    const SOLIDS: bool = false;
+/// A constant of a feature without fields.
+macro_rules! modeled {
+    (has) => {
+        true
+    };
+    (no) => {
+        false
+    };
 }
 
-/// Disc jumping over bare terrain: everything that moves a player, and his launcher.
-#[derive(Clone, Copy, Debug)]
-pub struct DiscJump;
+/// Turns a row of features into a [`Scene`].
+macro_rules! scene {
+    ($(#[$doc:meta])* $scene:ident = $name:literal {
+        jump: $jump:tt, contact: $contact:tt, jet: $jet:tt, energy: $energy:tt, landing_damage: $damage:tt,
+        discs: $discs:tt, blast: $blast:tt, solids: $solids:tt, bump_limits: $limits:tt
+    }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $scene;
 
-impl Scene for DiscJump {
-    const NAME: &'static str = "disc_jump";
-    const JUMP: bool = true;
-    type Contact<R: Real> = Has<crate::player::Contact<R>>;
-    type Jet<R: Real> = Has<R::Mask>;
-    type Energy<R: Real> = Has<R>;
-    type Damage<R: Real> = Has<R>;
-    type BumpLimits<R: Real> = Has<R::Int>;
-    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
-    const BLAST: bool = true;
-    const SOLIDS: bool = false;
+        impl Scene for $scene {
+            const NAME: &'static str = $name;
+            const JUMP: bool = modeled!($jump);
+            type Contact<R: Real> = group!($contact, crate::player::Contact<R>);
+            type Jet<R: Real> = group!($jet, R::Mask);
+            type Energy<R: Real> = group!($energy, R);
+            type Damage<R: Real> = group!($damage, R);
+            type Arms<R: Real> = group!($discs, crate::arms::Arms<R>);
+            type BumpLimits<R: Real> = group!($limits, R::Int);
+            const BLAST: bool = modeled!($blast);
+            const SOLIDS: bool = modeled!($solids);
+        }
+    };
 }
 
-/// The whole game's movement: as [`DiscJump`], with solids.
-#[derive(Clone, Copy, Debug)]
-pub struct Mission;
+scene! {
+    /// Skiing over bare terrain.
+    Ski = "ski" {
+        jump: has, contact: has, jet: has, energy: has, landing_damage: has,
+        discs: no, blast: no, solids: no, bump_limits: no
+    }
+}
 
-impl Scene for Mission {
-    const NAME: &'static str = "mission";
-    const JUMP: bool = true;
-    type Contact<R: Real> = Has<crate::player::Contact<R>>;
-    type Jet<R: Real> = Has<R::Mask>;
-    type Energy<R: Real> = Has<R>;
-    type Damage<R: Real> = Has<R>;
-    type BumpLimits<R: Real> = Has<R::Int>;
-    type Arms<R: Real> = Has<crate::arms::Arms<R>>;
-    const BLAST: bool = true;
-    const SOLIDS: bool = true;
+scene! {
+    /// Physics tests and notebooks: everything that moves a player on bare terrain, and no task.
+    Sandbox = "sandbox" {
+        jump: has, contact: has, jet: has, energy: has, landing_damage: has,
+        discs: no, blast: has, solids: no, bump_limits: has
+    }
+}
+
+scene! {
+    /// Disc jumping over bare terrain: everything that moves a player, and his launcher.
+    DiscJump = "disc_jump" {
+        jump: has, contact: has, jet: has, energy: has, landing_damage: has,
+        discs: has, blast: has, solids: no, bump_limits: has
+    }
+}
+
+scene! {
+    /// The whole game's movement: as [`DiscJump`], with solids.
+    Mission = "mission" {
+        jump: has, contact: has, jet: has, energy: has, landing_damage: has,
+        discs: has, blast: has, solids: has, bump_limits: has
+    }
 }
