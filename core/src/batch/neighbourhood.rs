@@ -7,7 +7,7 @@ use super::stage::Stage;
 use crate::movement::Obstacles;
 use crate::player::Place;
 use crate::real::{Scalar, V3};
-use crate::solids::SolidHit;
+use crate::solids::{SolidHit, Solids};
 use crate::terrain::{Hit, Surface};
 use glam::{DVec3, IVec2};
 
@@ -32,6 +32,8 @@ pub(super) fn vector<T: Scalar>(v: V3<T>) -> DVec3 {
 #[derive(Clone, Copy)]
 pub(super) struct Neighbourhood<'a, T: Scalar> {
     pub(super) stage: &'a Stage<'a, T>,
+    /// The solids within his reach; none where he is far from all of them.
+    pub(super) solids: Option<&'a Solids>,
     /// Where all players of the world stand at this moment.
     pub(super) stands: &'a [Stand],
     /// Whose way it is: his own body is not in it.
@@ -87,7 +89,7 @@ impl<T: Scalar> Obstacles<T> for Neighbourhood<'_, T> {
         }
         let path = vector(path);
         let mut first = Hit::none();
-        if let Some(solids) = self.stage.solids {
+        if let Some(solids) = self.solids {
             let found = solids.sweep_box(self.world(at), path, self.half_width(), self.height());
             if let Some(SolidHit { fraction, normal, .. }) = found {
                 first = hit(fraction, normal);
@@ -108,7 +110,7 @@ impl<T: Scalar> Obstacles<T> for Neighbourhood<'_, T> {
         }
         let path = vector(path);
         let mut first = Hit::none();
-        if let Some(solids) = self.stage.solids
+        if let Some(solids) = self.solids
             && let Some(SolidHit { fraction, normal, .. }) = solids.ray(self.world(at), path)
         {
             first = hit(fraction, normal);
@@ -124,7 +126,7 @@ impl<T: Scalar> Obstacles<T> for Neighbourhood<'_, T> {
 
     fn step_up(&self, at: &Place<T>, path: V3<T>, met: &Hit<T>, active: bool) -> T {
         // Only over solids: players are no stairs.
-        let (true, true, Some(solids)) = (active, met.body, self.stage.solids) else {
+        let (true, true, Some(solids)) = (active, met.body, self.solids) else {
             return T::zero();
         };
         let (feet, path) = (self.world(at), vector(path));

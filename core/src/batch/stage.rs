@@ -112,7 +112,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         }
         for lane in (0..R::LANES).filter(|&lane| near.lane(lane)) {
             let mut one = before.lane(lane);
-            let world = Neighbourhood { stage: self, stands: &[], me: 0 };
+            let world = self.around(&[], 0);
             self.play::<S, M, T, _>(&mut one, &input.lane(lane), &world);
             body.set_lane(lane, &one);
         }
@@ -130,25 +130,41 @@ impl<'a, T: Scalar> Stage<'a, T> {
         stands.clear();
         stands.extend(bodies.iter().map(|body| Stand::of(&body.player.place())));
         for me in 0..bodies.len() {
-            let world = Neighbourhood { stage: self, stands, me };
+            let world = self.reachable(&bodies[me], stands, me);
             self.advance::<S, M, T, _>(&mut bodies[me].player, &inputs[me], &world);
             stands[me] = Stand::of(&bodies[me].player.place());
         }
         for (me, body) in bodies.iter_mut().enumerate() {
-            let map = body.player.map;
+            let (map, world) = (body.player.map, self.reachable(body, stands, me));
             if let Some(arms) = body.arms.as_mut() {
-                fly(arms, map, &Neighbourhood { stage: self, stands, me }, self.arsenal);
+                fly(arms, map, &world, self.arsenal);
             }
         }
         for shooter in 0..bodies.len() {
             let Some(slots) = bodies[shooter].arms.as_ref().map(|arms| arms.slots) else { return };
             for shot in slots.iter().filter(|shot| shot.burst()) {
                 for (me, body) in bodies.iter_mut().enumerate() {
-                    let world = Neighbourhood { stage: self, stands, me };
+                    let world = self.around(stands, me);
                     self.suffer(&mut body.player, shot, true, &world);
                 }
             }
         }
+    }
+
+    /// The world around one of its players, with all that stands.
+    pub(super) fn around<'b>(&'b self, stands: &'b [Stand], me: usize) -> Neighbourhood<'b, T> {
+        Neighbourhood { stage: self, solids: self.solids, stands, me }
+    }
+
+    /// The same, without solids that neither he nor his projectiles can reach within the tick.
+    fn reachable<'b, S: Scene>(
+        &'b self,
+        body: &Body<S, T>,
+        stands: &'b [Stand],
+        me: usize,
+    ) -> Neighbourhood<'b, T> {
+        let solids = if self.near_solids(body) { self.solids } else { None };
+        Neighbourhood { stage: self, solids, stands, me }
     }
 
     /// View and trigger.
@@ -203,7 +219,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         if S::SOLIDS && self.solids.is_some() {
             for lane in (0..R::LANES).filter(|&lane| burst.lane(lane)) {
                 let mut one = p.lane(lane);
-                let world = Neighbourhood { stage: self, stands: &[], me: 0 };
+                let world = self.around(&[], 0);
                 self.suffer(&mut one, &shot.lane(lane), true, &world);
                 p.set_lane(lane, &one);
             }

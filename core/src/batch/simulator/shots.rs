@@ -1,6 +1,6 @@
 //! Explosions and projectiles of a simulator, as its users see them.
 
-use super::super::neighbourhood::{Neighbourhood, Stand};
+use super::super::neighbourhood::Stand;
 use super::Simulator;
 use super::setup::find_weapon;
 use crate::blast::seen_from;
@@ -84,7 +84,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
                     let map = body.player.map;
                     let place = Place { position, tile_x: tile.x, tile_y: tile.y, map };
                     let at = seen_from(&body.player, &place, &stage.surface);
-                    let hood = Neighbourhood { stage: &stage, stands: &stands, me };
+                    let hood = stage.around(&stands, me);
                     stage.explode(&mut body.player, at, at, true, &explosive, &hood);
                 }
             }
