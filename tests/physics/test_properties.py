@@ -135,7 +135,8 @@ def keys(case: Case) -> Iterator[NDArray[np.void]]:
 
 
 def speeds(state: NDArray[np.void]) -> NDArray[np.float64]:
-    return np.linalg.norm(state["velocity"].astype(np.float64), axis=1)
+    metres: NDArray[np.float64] = np.linalg.norm(state["velocity"].astype(np.float64), axis=1)
+    return metres
 
 
 def most_gained(case: Case) -> tuple[float, float]:
@@ -202,9 +203,9 @@ def test_the_cases_are_not_idle() -> None:
         for inputs in keys(case):
             sim.step(inputs)
             bursts += len(sim.blasts())
-            touched += np.count_nonzero(sim.state()["touched"])
-        hurt += np.count_nonzero(sim.state()["damage"])
-        limits += np.count_nonzero(sim.state()["bump_limits"])
+            touched += int(np.count_nonzero(sim.state()["touched"]))
+        hurt += int(np.count_nonzero(sim.state()["damage"]))
+        limits += int(np.count_nonzero(sim.state()["bump_limits"]))
     counts = f"{touched} contacts, {hurt} of 720 hurt, {limits} at the bump limit, {bursts} bursts"
     assert touched > 1000, counts
     assert hurt > 200, counts
@@ -270,7 +271,7 @@ def test_whole_tiles_away_is_the_same_bits(case: Case, tiles: tuple[int, int]) -
 
 @pytest.mark.parametrize("tier", SIMULATOR_FIDELITIES)
 def test_scenes_share_what_they_share(tier: str) -> None:
-    """Without triggers and solids near, what a scene has more than `ski` changes no bit of what it has in common."""
+    """What a scene has more than `ski` changes no bit of the rest while nobody fires and nothing stands."""
     case = Case(7, 3, "tile", tier, "ski", 1, "light", False, "disc", 32, None)
     states: dict[str, Any] = {}
     for scene in SCENES:
