@@ -135,15 +135,8 @@ def test_a_snapshot_that_is_no_bytes(snapshot: Any) -> None:
 def test_snapshots_of_other_worlds() -> None:
     sim = played()
     good = sim.snapshot()
-    others = [
-        {"players_per_world": 1},
-        {"players": 4},
-        {"ammo": 3},
-        {"weapon": "mortar"},
-        {"fidelity": "swept"},
-    ]
-    for options in others:
-        other = pair(**options)
+    others = [pair(players_per_world=1), pair(players=4), pair(ammo=3), pair(weapon="mortar"), pair("swept")]
+    for other in others:
         refused(sim, ValueError, "snapshot", sim.restore, other.snapshot())
     for bad in (b"", good[:-1], good + b"x", good[:-1] + bytes([good[-1] ^ 1])):
         refused(sim, ValueError, "snapshot", sim.restore, bad)

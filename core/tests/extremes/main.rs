@@ -7,25 +7,28 @@
 //! ```text
 //!  1 nothing to move              moves, speeds
 //!  2 a hair over whole slices     moves
-//!  3 starts on and under ground   moves; swept: a_contact_at_once_pushes_out, a_player_below_the_ground_...
-//!  4 parallel, leaving            moves; contacts: a_path_that_only_just_reaches_the_ground_...
-//!  5 huge speeds                  speeds; standing: a_plate_of_a_millimetre_..., worlds: nobody_passes_through_...
+//!  3 starts on and under ground   moves; swept: a_contact_at_once_pushes_out, a_player_below_the_ground_is_pushed_out_again
+//!  4 parallel, leaving            moves, walls; contacts: a_path_that_only_just_reaches_the_ground_does_not_meet_it
+//!  5 huge speeds                  speeds; standing: a_plate_of_a_millimetre_stops_everyone_at_any_speed,
+//!                                 worlds: nobody_passes_through_anybody_at_any_speed
 //!  6 ages are integers            ticks; closed_forms: a_contact_allows_a_jump_in_the_next_8_ticks_or_7
-//!  7 valleys and pits             creases (four tests of nobody_falls_..., ski_bug, dips); pits here
+//!  7 valleys and pits             pits; creases: all of it
 //!  8 walls and overhangs          walls; thresholds: walls_cannot_be_jumped_from
-//!  9 two contacts in a row        keys; thresholds: the_steeper_..., engine: the_flatter_...
+//!  9 two contacts in a row        keys; thresholds: the_steeper_of_two_contacts_is_remembered,
+//!                                 engine: the_flatter_of_two_contacts_is_remembered
 //! 10 edges of the jump window     keys; closed_forms: a_jump_turns_the_jets_sideways_at_once_or_a_tick_later
-//! 11 energy                       keys; closed_forms: holding_jets_on_an_empty_tank_..., thresholds: the tank
-//! 12 sideways thrust              keys; closed_forms: sideways_thrust_fades_with_...
-//! 13 friction's cap               keys
+//! 11 energy                       keys; closed_forms: holding_jets_on_an_empty_tank_burns_8_ticks_of_25,
+//!                                 thresholds: a_released_key_puts_the_jets_out
+//! 12 sideways thrust              keys; closed_forms: sideways_thrust_fades_with_the_speed_along_the_pressed_direction
+//! 13 friction's cap               keys; contacts: friction_remembers_contacts_and_forgets_in_the_air
 //! 14 the stop rule                walls; contacts: a_crawler_stops_where_his_slices_began
 //! 15 landings                     walls; creases: every_bump_costs
-//! 16 explosions                   blasts (the file beside this directory); in every tier: shots
+//! 16 explosions                   shots, in every tier; blasts (beside this directory): all of it
 //! 17 lines of the grid            places; terrain_witness: all of it
 //! 18 tick lengths                 ticks; flight_properties: slots_suffice_at_every_tick_length
-//! 19 discs                        shots; discs: the engine's clock, flight_properties
-//! 20 numbers that are none        inputs; bad_input/simulators
-//! 21 outside the map              far_places, in every tier; places
+//! 19 discs                        shots; discs, flight_properties: all of them
+//! 20 numbers that are none        inputs; bad_input: all of it
+//! 21 outside the map              places; far_places: all of it, in every tier
 //! ```
 #![allow(missing_docs)]
 

@@ -89,6 +89,22 @@ fn e08_walls_and_ceilings_hurt_and_give_no_hold() {
     }
 }
 
+/// Caught: the engine moves by the mean of the speeds before and after, so its way may lead into a wall that the
+/// player already leaves; that contact took from him the speed away from it, as if walls were sticky.
+#[test]
+fn e04_a_wall_does_not_hold_who_leaves_it() {
+    for tier in TIERS {
+        let mut one = among(&[([1.0, 40.0, 40.0], [10.5, 0.0, 0.0])], tier);
+        one.put(0, [9.499, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        one.set(0, &[("touched", &[1.0]), ("friction", &[1.0])]);
+        // Friction turns 1 m/s towards the wall into 0.28 m/s away from it.
+        one.sim.step(&[RawInput { strafe: -1, ..IDLE }], 1).unwrap();
+        let left = one.velocity(0)[0];
+        assert!((left + 0.28).abs() < 1e-3, "{tier}: {left} m/s");
+        assert!(one.position(0)[0] < 9.5, "{tier}: {:?}", one.position(0));
+    }
+}
+
 /// From rest gravity makes g dt sin along the slope: below 0.75 m/s a crawler stops and is put back, above he
 /// goes. In the engine the limit shrinks with n.up.
 #[test]
