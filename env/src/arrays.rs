@@ -95,7 +95,15 @@ pub fn as_float64<'py>(
     value: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
-    let array = numpy.call_method1("asarray", (value,))?;
+    let array = numpy.call_method1("asarray", (value,)).map_err(|e| {
+        if e.is_instance_of::<PyValueError>(py) {
+            PyValueError::new_err(format!(
+                "{name}: expected real numbers in rows of one length, got a ragged sequence"
+            ))
+        } else {
+            e
+        }
+    })?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     if !["f", "i", "u"].contains(&kind.as_str()) {
         let dtype = array.getattr("dtype")?.str()?.to_string();

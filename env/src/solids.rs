@@ -6,14 +6,14 @@ use discjump_core::solids::{Placement, Shape, Solid, Solids, load};
 use discjump_core::terrain::mission::Mission;
 use discjump_core::terrain::{Heightfield, Maps};
 use glam::{DQuat, DVec3};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The attributes of a `discjump.Solid`.
 #[derive(FromPyObject)]
-pub struct SolidArgument {
+struct SolidArgument {
     kind: String,
     name: String,
     points: Vec<[f64; 3]>,
@@ -27,7 +27,8 @@ pub struct SolidArgument {
 pub type Parts = (&'static str, String, Vec<[f64; 3]>, Vec<[u32; 3]>, [f64; 3], [f64; 4], f64);
 
 impl SolidArgument {
-    fn solid(self) -> PyResult<Solid> {
+    /// The solid; `number` is its place among the others.
+    fn solid(self, number: usize) -> PyResult<Solid> {
         let points: Vec<DVec3> = self.points.into_iter().map(DVec3::from).collect();
         let shape = match (self.kind.as_str(), points.as_slice()) {
             ("box", &[size]) => Shape::Box { size },
@@ -35,7 +36,7 @@ impl SolidArgument {
             ("mesh", _) => Shape::Mesh { vertices: points, faces: self.faces },
             (kind, _) => {
                 return Err(PyValueError::new_err(format!(
-                    "kind: expected \"box\" with one row of sides, \"hull\" or \"mesh\", got {kind:?}"
+                    "solids[{number}].kind: expected \"box\" with one row of sides, \"hull\" or \"mesh\", got {kind:?}"
                 )));
             }
         };
@@ -92,9 +93,22 @@ impl Standing {
         Ok(Self { given, built })
     }
 
-    /// Solids of the user's.
-    pub fn of(py: Python<'_>, given: Vec<SolidArgument>, field: &Heightfield) -> PyResult<Self> {
-        let given = given.into_iter().map(SolidArgument::solid).collect::<PyResult<Vec<_>>>()?;
+    /// Solids of the user's: `solids`, a sequence of `discjump.Solid`.
+    pub fn of(solids: &Bound<'_, PyAny>, field: &Heightfield) -> PyResult<Self> {
+        let py = solids.py();
+        let class = py.import("discjump.solids")?.getattr("Solid")?;
+        let wrong = |what: &str, wanted: &str, got: &Bound<'_, PyAny>| {
+            PyTypeError::new_err(format!("{what}: expected a {wanted}, got {}", got.get_type()))
+        };
+        let rows = solids.try_iter().map_err(|_| wrong("solids", "sequence of discjump.Solid", solids))?;
+        let mut given = Vec::new();
+        for (k, one) in rows.enumerate() {
+            let one = one?;
+            if !one.is_instance(&class)? {
+                return Err(wrong(&format!("solids[{k}]"), "discjump.Solid", &one));
+            }
+            given.push(one.extract::<SolidArgument>()?.solid(k)?);
+        }
         py.detach(|| Self::new(given, field))
     }
 

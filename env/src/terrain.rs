@@ -2,7 +2,7 @@
 
 use crate::arrays::{array1, as_float64, rows};
 use crate::errors::refused;
-use crate::solids::{SolidArgument, Standing, of_mission};
+use crate::solids::{Standing, of_mission};
 use discjump_core::terrain::mission::{Area, Mission};
 use discjump_core::terrain::statistics::Report;
 use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
@@ -198,15 +198,15 @@ impl Terrain {
     /// The same terrain with other solids: a sequence of `discjump.Solid`, `terrain.solids + [...]` to add.
     ///
     /// Raises ValueError, naming the solid and its face, for what is no closed body or stands outside the
-    /// map.
-    fn with_solids(&self, py: Python<'_>, solids: Vec<SolidArgument>) -> PyResult<Self> {
+    /// map; TypeError for what is no solid.
+    fn with_solids(&self, solids: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self {
             heightfield: self.heightfield.clone(),
             maps: self.maps.clone(),
             mission: self.mission.clone(),
             flag_stands: self.flag_stands,
             seed: self.seed,
-            solids: Standing::of(py, solids, &self.heightfield)?,
+            solids: Standing::of(solids, &self.heightfield)?,
         })
     }
 

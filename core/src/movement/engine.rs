@@ -91,7 +91,10 @@ impl Movement for Engine {
             if struck.any() {
                 let blocked = if W::BODIES {
                     let steep = body.hit.and(normal.z.le(R::lit(armor::ENGINE_STEP_UP)));
-                    step_over(p, world, (&at, step), &body, struck, steep)
+                    // A path of mean speeds may lead into a body that the new speed leaves: the path ends
+                    // there, but nothing is left to turn.
+                    let into = p.velocity.dot(normal).lt(zero);
+                    step_over(p, world, (&at, step), &body, struck, steep).and(into)
                 } else {
                     struck
                 };

@@ -17,6 +17,7 @@ from importlib.metadata import version
 
 import gymnasium
 
+from discjump import terrains as terrains  # says how terrains are copied and pickled
 from discjump._native import Terrain
 from discjump.explosions import knockback
 from discjump.simulator import INPUT, SCENES, STATE, Physics, Scene, Simulator

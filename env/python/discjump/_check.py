@@ -133,15 +133,25 @@ def array(name: str, value: object, shapes: Collection[tuple[int, ...]], unit: s
     TypeError: start: expected numbers of shape (2,) or (3,) in m, got 'here' of type str
     """
     wanted = f"numbers of shape {' or '.join(map(str, shapes))} in {unit}"
-    try:
-        given: NDArray[Any] = np.asarray(value)
-    except ValueError:
-        raise ValueError(f"{name}: expected {wanted}, got the ragged {_shown(value)}") from None
+    given = numbers(name, value, wanted)
     if given.dtype.kind not in "iuf":
         raise TypeError(f"{name}: expected {wanted}, got {_shown(value)} of type {type(value).__name__}")
     if given.shape not in shapes:
         raise ValueError(f"{name}: expected {wanted}, got shape {given.shape}")
     return given.astype(np.float64)
+
+
+def numbers(name: str, value: object, wanted: str) -> NDArray[Any]:
+    """`value` as an array of any kind, where it has a shape at all.
+
+    >>> numbers("points", [[1, 2, 3], [4, 5]], "numbers of shape (n, 3) in m")
+    Traceback (most recent call last):
+    ValueError: points: expected numbers of shape (n, 3) in m, got the ragged [[1, 2, 3], [4, 5]]
+    """
+    try:
+        return np.asarray(value)
+    except ValueError:
+        raise ValueError(f"{name}: expected {wanted}, got the ragged {_shown(value)}") from None
 
 
 def nearest(value: str, names: Iterable[str]) -> str:

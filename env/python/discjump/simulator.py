@@ -129,7 +129,7 @@ class Simulator:
 
         Args:
             terrain: where they move.
-            num_players: how many in all.
+            num_players: how many in all, 1 to 2^24.
             scene: "ski", "sandbox" (explosions as well), "disc_jump" (a launcher as well) or "mission" (the
                 terrain's solids as well); `SCENES` lists what each models.
             armor: "light", "medium" or "heavy".
@@ -151,21 +151,22 @@ class Simulator:
         """
         if not isinstance(terrain, Terrain):
             raise TypeError(f"terrain: expected a discjump.Terrain, got {type(terrain).__name__}")
-        self.seed = seed
-        switches = physics or Physics()
+        if physics is not None and not isinstance(physics, Physics):
+            raise TypeError(f"physics: expected a discjump.Physics, got {type(physics).__name__}")
+        self.seed = _check.integer("seed", seed, 0, _check.SEEDS - 1)
         self._native = _native.Simulator(
             terrain,
-            _whole("num_players", num_players),
-            _whole("players_per_world", players_per_world),
+            _check.integer("num_players", num_players, 1, 1 << 24),
+            _check.integer("players_per_world", players_per_world, 1, 256),
             _check.choice("scene", scene, SCENES),
             _check.choice("armor", armor, ARMORS),
             _check.flag("energy_pack", energy_pack),
             _check.choice("weapon", weapon, WEAPONS),
             None if ammo is None else _check.integer("ammo", ammo, 0, 1_000_000),
             _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
-            switches,
-            _whole("tick_ms", tick_ms),
-            None if threads is None else _whole("threads", threads),
+            Physics() if physics is None else physics,
+            _check.integer("tick_ms", tick_ms, 1, 1000),
+            None if threads is None else _check.integer("threads", threads, 1, 256),
         )
 
     @property
@@ -212,7 +213,7 @@ class Simulator:
         if indices is None:
             chosen = list(range(self.num_players))
         else:
-            array = np.asarray(indices)
+            array = _check.numbers("indices", indices, "integers of shape (n,)")
             if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
                 raise ValueError(
                     f"indices: expected integers of shape (n,), got {array.dtype} of shape {array.shape}"
@@ -237,10 +238,8 @@ class Simulator:
             TypeError: another dtype.
             ValueError: another shape or a value out of range. Then nothing was changed.
         """
-        ticks = _whole("ticks", ticks)
-        if ticks >= 2**32:
-            raise ValueError(f"ticks: expected 0 to 2^32 - 1, got {ticks}")
-        self._native.step(_packed("inputs", inputs, INPUT, self.num_players), ticks)
+        whole = _check.integer("ticks", ticks, 0, 2**32 - 1)
+        self._native.step(_packed("inputs", inputs, INPUT, self.num_players), whole)
 
     def explode(self, points: ArrayLike, weapon: str = "disc") -> None:
         """Set off one explosion per player, at once; nothing stays pending.
@@ -284,22 +283,16 @@ class Simulator:
         """Go back to a snapshot of a simulator with the same arguments.
 
         Raises:
+            TypeError: no bytes.
             ValueError: a damaged snapshot, or one of another layout. Then nothing was changed.
         """
+        if not isinstance(snapshot, bytes):
+            raise TypeError(f"snapshot: expected bytes, got {type(snapshot).__name__}")
         self._native.restore(snapshot)
 
     def digest(self) -> str:
         """32 hexadecimal digits that name the players' exact bits (XXH3-128)."""
         return self._native.digest()
-
-
-def _whole(name: str, value: object) -> int:
-    """A whole number that is not negative."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer):
-        raise TypeError(f"{name}: expected an int, got {type(value).__name__}")
-    if value < 0:
-        raise ValueError(f"{name}: expected a number that is not negative, got {value}")
-    return int(value)
 
 
 def _packed(name: str, array: object, dtype: np.dtype[Any], rows: int) -> bytes:

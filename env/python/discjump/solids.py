@@ -46,6 +46,8 @@ class Solid:
 
     def __post_init__(self) -> None:
         """Take arrays of whatever the fields were given."""
+        if not isinstance(self.name, str):
+            raise TypeError(f"name: expected a str, got {type(self.name).__name__}")
         object.__setattr__(self, "points", np.asarray(self.points, np.float64).reshape(-1, 3))
         object.__setattr__(self, "faces", np.asarray(self.faces, np.uint32).reshape(-1, 3))
         object.__setattr__(self, "position", tuple(self.position))
@@ -87,7 +89,7 @@ class Solid:
         name: str = "mesh",
     ) -> Solid:
         """A closed mesh: vertices (n, 3), and triangles (m, 3) of vertex numbers, counter-clockwise."""
-        given = np.asarray(faces)
+        given = _check.numbers("faces", faces, "integers of shape (m, 3)")
         if given.dtype.kind not in "iu" or given.ndim != 2 or given.shape[1] != 3:
             raise ValueError(
                 f"faces: expected integers of shape (m, 3), got {given.dtype} of shape {given.shape}"
@@ -130,7 +132,7 @@ def _placed(
 
 
 def _rows(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    array = np.asarray(value)
+    array = _check.numbers(name, value, "numbers of shape (n, 3) in m")
     if array.dtype.kind not in "iuf" or array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: expected numbers of shape (n, 3) in m, got {array.dtype} {array.shape}")
     return array.astype(np.float64)
