@@ -17,6 +17,10 @@ pub(super) const AT_ONCE: f64 = 1e-7;
 /// only one counts at a time ([`Motion::buried`]), else two that press from opposite sides would hold the box for ever.
 const TOUCH: f64 = 1e-3;
 
+/// How deep a touch may become by motions that are each let go, m: well below a touch, since of what is overlapped
+/// deeper all but one face would let him through.
+const CREEP: f64 = 5e-4;
+
 /// Squared sine of the angle below which a triangle's edge and a box's edge count as parallel. Their cross
 /// product then says nothing that the other axes do not say to within 3 micrometres on a box's edge.
 const PARALLEL: f64 = 1e-12;
@@ -221,10 +225,11 @@ impl Axes {
     fn contact(&self) -> Option<Contact> {
         if self.overlaps() {
             let Overlap { kind, out, depth } = self.shallowest;
-            // Deeper by less than a skin is let go, until it is more than a touch: in a gap just as wide as the box its
-            // two sides would stop it in turn for ever.
-            let deeper = depth <= TOUCH && self.path.dot(out) < -SKIN;
-            return deeper.then(|| self.met(0.0, kind, out));
+            // Deeper by less than a skin is let go as long as it does not add up: in a gap just as wide as the box its two
+            // sides would stop it in turn for ever.
+            let deeper = -self.path.dot(out);
+            let met = depth <= TOUCH && deeper > 0.0 && (deeper > SKIN || depth + deeper > CREEP);
+            return met.then(|| self.met(0.0, kind, out));
         }
         let last = self.entries.iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.at));
         let at_once = |kind: &&Kind| {
