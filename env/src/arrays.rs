@@ -88,20 +88,26 @@ pub fn rows(
     Ok((array.as_slice()?.to_vec(), shape[1]))
 }
 
-/// Real numbers as a C-contiguous float64 array.
+/// Real numbers as a C-contiguous, aligned float64 array.
 pub fn as_float64<'py>(
     py: Python<'py>,
     name: &str,
     value: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
-    let array = numpy.call_method1("asarray", (value,))?;
+    let array = numpy.call_method1("asarray", (value,)).map_err(|error| {
+        if !error.is_instance_of::<PyValueError>(py) {
+            return error;
+        }
+        PyValueError::new_err(format!("{name}: expected real numbers, got what numpy refuses: {error}"))
+    })?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     if !["f", "i", "u"].contains(&kind.as_str()) {
         let dtype = array.getattr("dtype")?.str()?.to_string();
         return Err(PyTypeError::new_err(format!("{name}: expected real numbers, got dtype {dtype}")));
     }
-    numpy.call_method1("ascontiguousarray", (array, "float64"))
+    // Aligned as well: a field of a structured array may be contiguous and lie anywhere.
+    numpy.call_method1("require", (array, "float64", ["C_CONTIGUOUS", "ALIGNED"]))
 }
 
 /// A boolean output buffer as Rust sees it.

@@ -17,6 +17,7 @@ from importlib.metadata import version
 
 import gymnasium
 
+from discjump import terrains as _terrains  # noqa: F401 (it teaches how terrains are pickled)
 from discjump._native import Terrain
 from discjump.explosions import knockback
 from discjump.simulator import INPUT, SCENES, Physics, Scene, Simulator

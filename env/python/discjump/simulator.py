@@ -151,8 +151,9 @@ class Simulator:
         """
         if not isinstance(terrain, Terrain):
             raise TypeError(f"terrain: expected a discjump.Terrain, got {type(terrain).__name__}")
-        self.seed = seed
-        switches = physics or Physics()
+        if physics is not None and not isinstance(physics, Physics):
+            raise TypeError(f"physics: expected a discjump.Physics or None, got {type(physics).__name__}")
+        self.seed = _check.integer("seed", seed, 0, _check.SEEDS - 1)
         self._native = _native.Simulator(
             terrain,
             _whole("num_players", num_players),
@@ -163,7 +164,7 @@ class Simulator:
             _check.choice("weapon", weapon, WEAPONS),
             None if ammo is None else _check.integer("ammo", ammo, 0, 1_000_000),
             _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
-            switches,
+            physics or Physics(),
             _whole("tick_ms", tick_ms),
             None if threads is None else _whole("threads", threads),
         )
@@ -237,10 +238,7 @@ class Simulator:
             TypeError: another dtype.
             ValueError: another shape or a value out of range. Then nothing was changed.
         """
-        ticks = _whole("ticks", ticks)
-        if ticks >= 2**32:
-            raise ValueError(f"ticks: expected 0 to 2^32 - 1, got {ticks}")
-        self._native.step(_packed("inputs", inputs, INPUT, self.num_players), ticks)
+        self._native.step(_packed("inputs", inputs, INPUT, self.num_players), _whole("ticks", ticks))
 
     def explode(self, points: ArrayLike, weapon: str = "disc") -> None:
         """Set off one explosion per player, at once; nothing stays pending.
@@ -294,11 +292,11 @@ class Simulator:
 
 
 def _whole(name: str, value: object) -> int:
-    """A whole number that is not negative."""
+    """A whole number that the native simulator can take; it checks the range that makes sense."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         raise TypeError(f"{name}: expected an int, got {type(value).__name__}")
-    if value < 0:
-        raise ValueError(f"{name}: expected a number that is not negative, got {value}")
+    if not 0 <= value < 2**32:
+        raise ValueError(f"{name}: expected 0 to 2^32 - 1, got {value}")
     return int(value)
 
 
