@@ -249,3 +249,24 @@ fn armors_stand_off_a_wall_by_half_their_width() {
         assert!(x <= 10.0 - half && x > 10.0 - half - 0.4, "{armor}: {x}");
     }
 }
+
+#[test]
+fn solids_too_far_for_single_precision_are_refused_there() {
+    // They let players through: 8 of 45 rooms at 8 km from the centre did within seconds.
+    let far = cuboid([10.0; 3], [3000.0, 0.0, 5.0]);
+    let map = flat();
+    let built = Arc::new(Solids::new(&[far], map.grid()).unwrap());
+    for tier in TIERS {
+        let mut s = setup(&map, tier);
+        (s.scene, s.solids) = ("mission", Some(&built));
+        let made = s.build();
+        if tier == "reference" {
+            assert!(made.is_ok());
+        } else {
+            let error = made.err().expect(tier).to_string();
+            assert!(error.contains("terrain.solids") && error.contains("3005.0 m"), "{tier}: {error}");
+        }
+        s.scene = "ski";
+        assert!(s.build().is_ok(), "a scene without solids does not look at them");
+    }
+}

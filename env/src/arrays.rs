@@ -88,7 +88,7 @@ pub fn rows(
     Ok((array.as_slice()?.to_vec(), shape[1]))
 }
 
-/// Real numbers as a C-contiguous float64 array.
+/// Real numbers as a C-contiguous, aligned float64 array.
 pub fn as_float64<'py>(
     py: Python<'py>,
     name: &str,
@@ -109,7 +109,8 @@ pub fn as_float64<'py>(
         let dtype = array.getattr("dtype")?.str()?.to_string();
         return Err(PyTypeError::new_err(format!("{name}: expected real numbers, got dtype {dtype}")));
     }
-    numpy.call_method1("ascontiguousarray", (array, "float64"))
+    // Aligned as well: a field of a structured array may be contiguous and lie anywhere.
+    numpy.call_method1("require", (array, "float64", ["C_CONTIGUOUS", "ALIGNED"]))
 }
 
 /// A boolean output buffer as Rust sees it.

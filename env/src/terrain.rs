@@ -169,7 +169,7 @@ impl Terrain {
     }
 
     /// The mission, or None: a dict of flags (2, 3) on the ground, flag_stands (2, 3) where they stand on
-    /// its bases, bridge_centre (3,), bridge_ends (2, 3), bridge_width, bridge_deck_top, area_min (2,),
+    /// its own bases, bridge_centre (3,), bridge_ends (2, 3), bridge_width, bridge_deck_top, area_min (2,),
     /// area_max (2,); metres.
     #[getter]
     fn mission<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {

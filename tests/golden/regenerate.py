@@ -18,6 +18,7 @@ FILE = Path(__file__).with_name("digests.json")
 TERRAIN_SEEDS = (0, 1, 7, 10_000, 2**64 - 1)
 TIERS = ("authentic", "reference", "swept", "fast", "engine")
 NUM_ENVS, DECISIONS = 48, 500
+SCENE_DECISIONS = 75
 
 
 def actions(decision: int) -> NDArray[np.int64]:
@@ -48,10 +49,51 @@ def rollout(fidelity: str) -> str:
     return digest.hexdigest()
 
 
+def scene(name: str, fidelity: str) -> str:
+    """Digest of 16 worlds of 3 players about the bridge and in a base, who ski, jet and fire."""
+    terrain = discjump.Terrain.raindance(0)
+    assert terrain.mission is not None
+    sim = discjump.Simulator(
+        terrain, NUM_ENVS, name, fidelity=fidelity, threads=1, players_per_world=3, weapon="disc"
+    )
+    index = np.arange(NUM_ENVS)
+    state = sim.state()
+    middle = np.where(
+        (index // 3 % 2 == 0)[:, None], terrain.mission["bridge_centre"], terrain.mission["flag_stands"][0]
+    )
+    state["position"] = middle + np.column_stack([3.0 * (index % 3) - 3.0, 0.25 * (index // 6), 0.0 * index])
+    state["position"][:, 2] += 0.25
+    state["yaw"] = 0.5 * (index % 12) - 3.0
+    sim.set_state(state)
+    digest = hashlib.sha256()
+    blasts = 0
+    for decision in range(SCENE_DECISIONS):
+        drawn = actions(decision)
+        inputs = sim.inputs()
+        inputs["forward"], inputs["strafe"] = drawn[:, 0] - 1, drawn[:, 1] - 1
+        inputs["jump"], inputs["jet"] = drawn[:, 2], drawn[:, 3]
+        inputs["fire"], inputs["turn"] = drawn[:, 4] > 2, 0.25 * (drawn[:, 4] - 3)
+        inputs["pitch"] = 0.25 * (index % 5 - 3)
+        for _ in range(4):
+            sim.step(inputs)
+            blasts += len(sim.blasts())
+        if decision % 25 == 24 and "blast" in sim.scene.models:
+            sim.explode(sim.state()["position"] + (1.0, 0.0, 0.0))
+        digest.update(sim.state().tobytes())
+    assert "discs" not in sim.scene.models or blasts > 20, f"{name}, {fidelity}: {blasts} discs burst"
+    digest.update(sim.digest().encode())
+    return digest.hexdigest()
+
+
 def digests() -> dict[str, dict[str, str]]:
     """All golden digests, computed now."""
     return {
         "discjump/Ski-v0": {fidelity: rollout(fidelity) for fidelity in TIERS},
+        **{
+            f"scene {name}": {fidelity: scene(name, fidelity) for fidelity in TIERS}
+            for name in ("sandbox", "disc_jump", "mission")
+        },
+        "solids": {"0": discjump.Terrain.raindance(0).solids_digest()},
         "terrain": {str(seed): discjump.Terrain.raindance(seed).digest() for seed in TERRAIN_SEEDS},
         "repeating terrain": {
             str(seed): discjump.Terrain.raindance(seed, repeating=True).digest() for seed in TERRAIN_SEEDS[:2]

@@ -10,7 +10,7 @@ import pytest
 
 import discjump
 
-from .regenerate import FILE, TERRAIN_SEEDS, TIERS, rollout
+from .regenerate import FILE, TERRAIN_SEEDS, TIERS, rollout, scene
 
 GOLDEN = json.loads(FILE.read_text())
 
@@ -20,6 +20,18 @@ def test_rollouts_have_their_golden_bits(fidelity: str) -> None:
     assert rollout(fidelity) == GOLDEN["discjump/Ski-v0"][fidelity], (
         "the bits of discjump/Ski-v0 changed: this needs a new id (see the version policy in CHANGELOG.md)"
     )
+
+
+@pytest.mark.parametrize("fidelity", TIERS)
+@pytest.mark.parametrize("name", ["sandbox", "disc_jump", "mission"])
+def test_scenes_have_their_golden_bits(name: str, fidelity: str) -> None:
+    assert scene(name, fidelity) == GOLDEN[f"scene {name}"][fidelity], (
+        "bodies move otherwise than they did: CHANGELOG.md must say so, and no id may rest on it"
+    )
+
+
+def test_missions_have_their_golden_solids() -> None:
+    assert discjump.Terrain.raindance(0).solids_digest() == GOLDEN["solids"]["0"]
 
 
 @pytest.mark.parametrize("seed", TERRAIN_SEEDS)

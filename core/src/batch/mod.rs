@@ -13,4 +13,6 @@ mod stage;
 pub use environment::{Autoreset, Environments, ResetRequest, SkiEnvironments, Status, StepOutput};
 pub use pool::{INLINE_BELOW, MAX_THREADS};
 pub use raw_input::RawInput;
-pub use simulator::{Bodies, MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, MAX_SPEED, Shot, SimulatorSetup};
+pub use simulator::{
+    Bodies, FARTHEST_SOLID_F32, MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, MAX_SPEED, Shot, SimulatorSetup,
+};

@@ -85,6 +85,13 @@ impl Solids {
         self.triangles.iter().map(|t| (t.solid, t.corners))
     }
 
+    /// The farthest that anything stands from a point along an axis, m; 0 where nothing stands.
+    #[must_use]
+    pub fn farthest(&self, from: DVec3) -> f64 {
+        let corners = self.triangles.iter().flat_map(|t| t.corners);
+        corners.fold(0.0, |far: f64, corner| far.max((corner - from).abs().max_element()))
+    }
+
     /// XXH3-128 of the triangles and whose they are, in their order.
     #[must_use]
     pub fn digest(&self) -> u128 {

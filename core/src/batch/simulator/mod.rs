@@ -4,7 +4,7 @@ mod setup;
 mod shots;
 mod state;
 
-pub use setup::{MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, SimulatorSetup};
+pub use setup::{FARTHEST_SOLID_F32, MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, SimulatorSetup};
 pub(super) use setup::{check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;

@@ -21,6 +21,9 @@ use std::sync::Arc;
 pub const MAX_PLAYERS: usize = 1 << 24;
 /// Most players of one world: each looks at all others in every move.
 pub const MAX_PLAYERS_PER_WORLD: usize = 256;
+/// Farthest from the map's centre, or up or down, that solids may stand for players in f32, m: beyond
+/// it the rounding of a position outgrows the outward push, and carries players into faces.
+pub const FARTHEST_SOLID_F32: f64 = 2048.0;
 /// Distance between the first places of two players of one world, m: out of each other's way.
 const APART: f64 = 4.0;
 
@@ -146,6 +149,17 @@ impl SimulatorSetup<'_> {
         let mut arsenal = Arsenal::<R::Scalar>::new(weapon, self.tick_ms, &self.physics);
         arsenal.ammo = self.ammo.unwrap_or(arsenal.ammo);
         let solids = if S::SOLIDS { self.solids.cloned() } else { None };
+        if let Some(solids) = &solids
+            && !R::Scalar::DOUBLE
+        {
+            let far = solids.farthest(maps.centre().extend(0.0));
+            if far > FARTHEST_SOLID_F32 {
+                refuse!(
+                    "terrain.solids: in a float32 tier expected within {FARTHEST_SOLID_F32} m of the map's centre and of \
+                     height 0 along each axis, got {far:.1} m; fidelity \"reference\" takes them"
+                );
+            }
+        }
         let mut layout = format!(
             "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, terrain {}, players_per_world {}",
             S::NAME,
