@@ -44,8 +44,9 @@ impl<S: Scene, R: Real> Body<S, R> {
 
 /// How far along the contact normal the rays start that a blast sees by, m.
 const LIFTED: f64 = 0.05;
-/// What the step of an engine disc may be longer than a tick, s: slack of the broad phase.
-const DISC_STEP: f64 = 0.034;
+/// An engine disc may have a step of its clock left over from the tick before, s, and flies a thirtieth
+/// of a second where 33 ms are counted: slack of the broad phase.
+const DISC_CLOCK: (f64, f64) = (0.033, 1.0 / (30.0 * 0.033));
 /// A step up, and rounding, m: slack of the broad phase.
 const STEP_UP: f64 = 1.0;
 
@@ -277,7 +278,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         for shot in body.arms.as_ref().iter().flat_map(|arms| &arms.slots) {
             let flying = shot.flying();
             if flying.any() {
-                let time = self.range.tick + DISC_STEP;
+                let time = (self.range.tick + DISC_CLOCK.0) * DISC_CLOCK.1;
                 self.mark_near(solids, (flying, time), &shot.place(p.map), shot.velocity, &mut near);
             }
         }
