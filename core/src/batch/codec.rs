@@ -71,9 +71,14 @@ pub(super) fn place<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>) -> DVec3
     maps.to_world(local, IVec2::new(p.tile_x, p.tile_y))
 }
 
+/// Appends a player's world position: three f64.
+pub(super) fn write_place<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, out: &mut Vec<u8>) {
+    place(maps, p).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
+}
+
 /// Appends a player's public state: his world position (three f64), then his other fields.
 pub(super) fn write_state<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, out: &mut Vec<u8>) {
-    place(maps, p).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
+    write_place(maps, p, out);
     write_player(p, false, out);
 }
 

@@ -146,7 +146,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
             for shot in slots.iter().filter(|shot| shot.burst()) {
                 for (me, body) in bodies.iter_mut().enumerate() {
                     let world = self.around(stands, me);
-                    self.suffer(&mut body.player, shot, true, &world);
+                    self.suffer(&mut body.player, shot, &world);
                 }
             }
         }
@@ -221,7 +221,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
             for lane in (0..R::LANES).filter(|&lane| burst.lane(lane)) {
                 let mut one = p.lane(lane);
                 let world = self.around(&[], 0);
-                self.suffer(&mut one, &shot.lane(lane), true, &world);
+                self.suffer(&mut one, &shot.lane(lane), &world);
                 p.set_lane(lane, &one);
             }
             return;
@@ -232,16 +232,10 @@ impl<'a, T: Scalar> Stage<'a, T> {
     }
 
     /// What a burst does to one player of the world.
-    fn suffer<S: Scene>(
-        &self,
-        p: &mut Player<S, T>,
-        shot: &Projectile<T>,
-        struck: bool,
-        world: &Neighbourhood<'_, T>,
-    ) {
+    fn suffer<S: Scene>(&self, p: &mut Player<S, T>, shot: &Projectile<T>, world: &Neighbourhood<'_, T>) {
         let at = seen_from(p, &shot.place(p.map), &self.surface);
         let eye = at + shot.axis * T::from_f64(LIFTED);
-        self.explode(p, at, eye, struck, &self.arsenal.explosive, world);
+        self.explode(p, at, eye, &self.arsenal.explosive, world);
     }
 
     /// What an explosion at `at`, seen from `eye`, does to one player; both in his local frame, m.
@@ -250,7 +244,6 @@ impl<'a, T: Scalar> Stage<'a, T> {
         p: &mut Player<S, T>,
         at: V3<T>,
         eye: V3<T>,
-        struck: bool,
         explosive: &Explosive<T>,
         world: &Neighbourhood<'_, T>,
     ) {
@@ -262,7 +255,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         } else {
             coverage_on_terrain(&self.surface, p.map, at)
         };
-        strike(p, at, struck, coverage, explosive, self.rules);
+        strike(p, at, true, coverage, explosive, self.rules);
     }
 
     /// Whose tick, or whose projectiles', may meet a solid.

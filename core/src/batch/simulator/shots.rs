@@ -85,7 +85,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
                     let place = Place { position, tile_x: tile.x, tile_y: tile.y, map };
                     let at = seen_from(&body.player, &place, &stage.surface);
                     let hood = stage.around(&stands, me);
-                    stage.explode(&mut body.player, at, at, true, &explosive, &hood);
+                    stage.explode(&mut body.player, at, at, &explosive, &hood);
                 }
             }
             struck.extend(bodies);

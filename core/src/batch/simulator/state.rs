@@ -1,7 +1,6 @@
 //! Public states, out and in.
 
-use super::super::codec::place;
-use super::super::codec::{read_body, write_body};
+use super::super::codec::{read_body, write_body, write_place};
 use super::Bodies;
 use super::Simulator;
 use crate::error::{InputError, refuse};
@@ -24,7 +23,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         let mut out = Vec::with_capacity(self.count * self.state_bytes());
         for i in 0..self.count {
             let body = self.body(i);
-            place(&self.maps, &body.player).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
+            write_place(&self.maps, &body.player, &mut out);
             write_body(&body, false, &mut out);
         }
         out
