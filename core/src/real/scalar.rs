@@ -48,6 +48,10 @@ macro_rules! scalar {
                 [f(0)]
             }
             #[inline(always)]
+            fn pack(each: &[$t; 1]) -> Self {
+                each[0]
+            }
+            #[inline(always)]
             fn lane(self, _lane: usize) -> $t {
                 self
             }

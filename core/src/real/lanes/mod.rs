@@ -1,0 +1,86 @@
+//! Players side by side: `f32` lanes as a [`Real`], with the bits of the scalar in every lane.
+//!
+//! ```text
+//! avx2     8 lanes, masks as integer lanes
+//! avx512   16 lanes, masks as 16 bits
+//! ```
+//!
+//! Every operation is one instruction of the set, or a few; IEEE `+ - * /` and `sqrt` alone round, as
+//! they do for scalars, and nothing is contracted. The methods carry no target feature of their own:
+//! they are flattened into a function that does, which [`Real::enter`] calls. Two things follow. Code
+//! that is generic over [`Real`] must be `#[inline(always)]` and free of closures around lane
+//! operations, or each instruction becomes a call (slow, never wrong). And a value of these types may
+//! only be made where the processor has the set: they are the crate's own, and [`lane_width`], which
+//! chooses among them, is the one door.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests;
+mod width;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::F32x8;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::F32x16;
+pub(crate) use width::{Width, lane_width};
+
+/// What a bounds check of a gather ends in: out of line, so that the lookup stays short.
+#[cold]
+#[inline(never)]
+fn out_of_range(len: usize) -> ! {
+    panic!("an index of a gather is negative, or not below the table's length of {len}")
+}
+
+/// The arithmetic operators of a lane type, each one intrinsic.
+macro_rules! operators {
+    ($t:ident: $($trait:ident :: $method:ident = $intrinsic:ident),+) => {
+        $(impl core::ops::$trait for $t {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, o: Self) -> Self {
+                // SAFETY: a value exists, so the processor has the set.
+                Self(unsafe { $intrinsic(self.0, o.0) })
+            }
+        })+
+    };
+}
+use operators;
+
+/// One lane of a register, read and written through an array on the stack. The register itself stays
+/// one: an index into it would force it into memory.
+macro_rules! lane_access {
+    ($scalar:ty, $count:expr) => {
+        #[inline(always)]
+        fn lane(self, lane: usize) -> $scalar {
+            // SAFETY: a register is as large as the array of its lanes, and both are plain bits.
+            let lanes: [$scalar; $count] = unsafe { core::mem::transmute(self.0) };
+            lanes[lane]
+        }
+        #[inline(always)]
+        fn set_lane(&mut self, lane: usize, x: $scalar) {
+            // SAFETY: as above.
+            let mut lanes: [$scalar; $count] = unsafe { core::mem::transmute(self.0) };
+            lanes[lane] = x;
+            // SAFETY: as above.
+            self.0 = unsafe { core::mem::transmute::<[$scalar; $count], _>(lanes) };
+        }
+    };
+}
+use lane_access;
+
+/// An integer modulo `n > 0`, lane by lane: only maps whose sides are no powers of two need it.
+macro_rules! wrap_lanes {
+    ($register:expr, $count:expr, $n:expr) => {{
+        // SAFETY: a register is as large as the array of its lanes, and both are plain bits.
+        let mut lanes: [i32; $count] = unsafe { core::mem::transmute($register) };
+        for lane in &mut lanes {
+            *lane = lane.rem_euclid($n);
+        }
+        // SAFETY: as above.
+        unsafe { core::mem::transmute::<[i32; $count], _>(lanes) }
+    }};
+}
+use wrap_lanes;
