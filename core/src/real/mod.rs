@@ -9,7 +9,6 @@
 //! order written; no fused multiply-add, no platform libm. A vector lane then gives the bits of the
 //! scalar.
 
-#[cfg_attr(not(test), expect(dead_code, unused_imports, reason = "no batch chooses a width yet"))]
 pub(crate) mod lanes;
 mod ops;
 mod scalar;

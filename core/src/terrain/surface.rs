@@ -108,8 +108,8 @@ impl<'a, T: Scalar> Surface<'a, T> {
     #[inline(always)]
     pub(super) fn square_of<R: Real<Scalar = T>>(&self, x: R, y: R) -> (R::Int, R::Int) {
         let inverse = R::splat(self.inverse);
-        let index = |x: R| (x * inverse).floor_int().clamp(-FARTHEST, FARTHEST);
-        (index(x), index(y))
+        let (i, j) = ((x * inverse).floor_int(), (y * inverse).floor_int());
+        (i.clamp(-FARTHEST, FARTHEST), j.clamp(-FARTHEST, FARTHEST))
     }
 
     /// The corners of a square of a map.
@@ -149,8 +149,12 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let mirrored = parity.is_odd();
         let left = R::Int::select(mirrored, east, west);
         let right = R::Int::select(mirrored, west, east);
-        let at = |index| R::gather(self.heights, index);
-        let corner = [at(south + left), at(south + right), at(north + left), at(north + right)];
+        let corner = [
+            R::gather(self.heights, south + left),
+            R::gather(self.heights, south + right),
+            R::gather(self.heights, north + left),
+            R::gather(self.heights, north + right),
+        ];
         Square { corner, mirrored, ground }
     }
 
@@ -205,8 +209,9 @@ impl<'a, T: Scalar> Surface<'a, T> {
         }
         let turns = ((x - low) / period).floor_int();
         let wrapped = x - R::from_int(turns) * period;
+        let turned = (tile + turns).clamp(-MAX_TILES, MAX_TILES);
         // Rounding may leave it a hair outside; the square lookup wraps again, so that is harmless.
-        (R::select(outside, wrapped, x), (tile + turns).clamp(-MAX_TILES, MAX_TILES))
+        (R::select(outside, wrapped, x), R::Int::select(outside, turned, tile))
     }
 
     /// Metres from a local point in one tile to a point in another, along x and y.

@@ -249,10 +249,10 @@ fn a_gather_beyond_the_table_panics_and_reads_nothing() {
 #[test]
 fn a_width_that_is_none_is_refused_by_name() {
     for lanes in [0, 2, 4, 17, 1 << 40] {
-        let message = lane_width(Some(lanes)).unwrap_err().0;
+        let message = lane_width(Some(lanes), 100).unwrap_err().0;
         assert!(message.starts_with("lanes: expected one of ") && message.ends_with(&format!("got {lanes}")));
     }
     for width in Width::available() {
-        assert_eq!(lane_width(Some(width.lanes())).unwrap(), width);
+        assert_eq!(lane_width(Some(width.lanes()), 1).unwrap(), width);
     }
 }
