@@ -91,6 +91,11 @@ macro_rules! scalar {
             fn gather(table: &[$t], index: i32) -> Self {
                 table[index as usize]
             }
+            #[inline(always)]
+            fn gather_pair(table: &[$t], index: i32) -> (Self, Self) {
+                let [first, second] = table[index as usize..][..2] else { unreachable!() };
+                (first, second)
+            }
         }
     };
 }

@@ -120,16 +120,16 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let (last_i, last_j) = (self.cols - 2, self.rows - 2);
         let one = R::Int::splat(1);
         let mut ground = R::Mask::splat(true);
-        // (column, row) of the corners, and the square whose parity counts.
-        let (west, east, south, north, parity);
+        // Where the pair of columns begins, the rows, and the square whose parity counts.
+        let (column, south, north, parity);
         match self.edge {
             Edge::Tile => {
                 let (a, b) = (i.wrap(self.cols - 1), j.wrap(self.rows - 1));
-                (west, east, south, north) = (a, a + one, b, b + one);
+                (column, south, north) = (a, b, b + one);
                 parity = a + b;
             }
             Edge::Clamp => {
-                (west, east) = (i.clamp(0, self.cols - 1), (i + one).clamp(0, self.cols - 1));
+                column = i.clamp(0, last_i);
                 (south, north) = (j.clamp(0, self.rows - 1), (j + one).clamp(0, self.rows - 1));
                 parity = i + j;
             }
@@ -139,7 +139,7 @@ impl<'a, T: Scalar> Surface<'a, T> {
                 let outside = outside.or(j.lt(zero)).or(R::Int::splat(last_j).lt(j));
                 ground = outside.not();
                 let (a, b) = (i.clamp(0, last_i), j.clamp(0, last_j));
-                (west, east, south, north) = (a, a + one, b, b + one);
+                (column, south, north) = (a, b, b + one);
                 parity = i + j;
             }
         }
@@ -147,13 +147,19 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let south = map + south * cols;
         let north = map + north * cols;
         let mirrored = parity.is_odd();
-        let left = R::Int::select(mirrored, east, west);
-        let right = R::Int::select(mirrored, west, east);
+        let (mut sw, mut se) = R::gather_pair(self.heights, south + column);
+        let (mut nw, mut ne) = R::gather_pair(self.heights, north + column);
+        if self.edge == Edge::Clamp {
+            // Beyond the rim both corners are the nearer one of the last pair.
+            let (beyond_west, beyond_east) = (i.lt(R::Int::splat(0)), R::Int::splat(last_i).lt(i));
+            (sw, se) = (R::select(beyond_east, se, sw), R::select(beyond_west, sw, se));
+            (nw, ne) = (R::select(beyond_east, ne, nw), R::select(beyond_west, nw, ne));
+        }
         let corner = [
-            R::gather(self.heights, south + left),
-            R::gather(self.heights, south + right),
-            R::gather(self.heights, north + left),
-            R::gather(self.heights, north + right),
+            R::select(mirrored, se, sw),
+            R::select(mirrored, sw, se),
+            R::select(mirrored, ne, nw),
+            R::select(mirrored, nw, ne),
         ];
         Square { corner, mirrored, ground }
     }

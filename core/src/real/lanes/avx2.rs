@@ -1,6 +1,6 @@
 //! 8 lanes: AVX2.
 
-use super::{lane_access, operators, out_of_range, wrap_lanes};
+use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
@@ -17,6 +17,7 @@ pub(crate) struct I32x8(__m256i);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mask8(__m256i);
 
+#[inline(never)]
 #[target_feature(enable = "avx2")]
 fn with_avx2<W: Work>(work: W) -> W::Output {
     work.run()
@@ -179,6 +180,19 @@ impl Real for F32x8 {
                 out_of_range(table.len());
             }
             Self(_mm256_i32gather_ps::<4>(table.as_ptr(), index.0))
+        }
+    }
+    #[inline(always)]
+    fn gather_pair(table: &[f32], index: I32x8) -> (Self, Self) {
+        let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            let larger = _mm256_max_epu32(index.0, _mm256_set1_epi32(last));
+            if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
+                out_of_range(table.len());
+            }
+            let (first, second) = load_pairs(table, &core::mem::transmute::<__m256i, [i32; 8]>(index.0));
+            (Self(first), Self(second))
         }
     }
 }

@@ -1,9 +1,19 @@
 //! 16 lanes: AVX-512.
 
-use super::{lane_access, operators, out_of_range, wrap_lanes};
+use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
+
+/// Two halves of a register.
+///
+/// # Safety
+/// The processor has AVX-512.
+#[inline(always)]
+unsafe fn join(low: __m256, high: __m256) -> __m512 {
+    // SAFETY: the caller's promise.
+    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high) }
+}
 
 /// 16 numbers.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +27,7 @@ pub(crate) struct I32x16(__m512i);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mask16(u16);
 
+#[inline(never)]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
 fn with_avx512<W: Work>(work: W) -> W::Output {
     work.run()
@@ -179,6 +190,19 @@ impl Real for F32x16 {
                 out_of_range(table.len());
             }
             Self(_mm512_i32gather_ps::<4>(index.0, table.as_ptr().cast()))
+        }
+    }
+    #[inline(always)]
+    fn gather_pair(table: &[f32], index: I32x16) -> (Self, Self) {
+        let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            if _mm512_cmpge_epu32_mask(index.0, _mm512_set1_epi32(last)) != 0 {
+                out_of_range(table.len());
+            }
+            let [low, high] = core::mem::transmute::<__m512i, [[i32; 8]; 2]>(index.0);
+            let (low, high) = (load_pairs(table, &low), load_pairs(table, &high));
+            (Self(join(low.0, high.0)), Self(join(low.1, high.1)))
         }
     }
 }

@@ -94,7 +94,7 @@ impl<R: Real<Scalar = f32>> Operands<R> {
 }
 
 struct Results<R: Real> {
-    reals: [R; 18],
+    reals: [R; 20],
     ints: [R::Int; 12],
     masks: [R::Mask; 10],
     any: bool,
@@ -128,6 +128,8 @@ impl<R: Real<Scalar = f32>> Work for All<'_, R> {
                 R::select(mask, a, b),
                 R::from_int(i),
                 R::gather(self.table, index),
+                R::gather_pair(self.table, index).0,
+                R::gather_pair(self.table, index).1,
                 R::lit(0.1),
                 R::splat(3.5),
                 sin,
@@ -176,7 +178,7 @@ fn operands<R: Real<Scalar = f32>>(round: u64) -> Operands<R> {
     for lane in 0..R::LANES {
         i.set_lane(lane, integer(at(lane, 0)));
         j.set_lane(lane, if round % 3 == 0 { integer(at(lane, 0)) } else { integer(at(lane, 1)) });
-        index.set_lane(lane, integer(at(lane, 2)).rem_euclid(TABLE as i32));
+        index.set_lane(lane, integer(at(lane, 2)).rem_euclid(TABLE as i32 - 1));
         mask.set_lane(lane, integer(at(lane, 3)) & 1 == 1);
         other.set_lane(lane, integer(at(lane, 4)) % 7 == 0);
     }
@@ -219,6 +221,8 @@ fn gather_refuses<R: Real<Scalar = f32>>() {
             let mut index = R::Int::splat(4);
             index.set_lane(lane, bad);
             let caught = catch_unwind(AssertUnwindSafe(|| R::gather(&[0.0; 5], index)));
+            let pair = catch_unwind(AssertUnwindSafe(|| R::gather_pair(&[0.0; 6], index)));
+            assert!(pair.is_err(), "a pair at {bad} in lane {lane} of {}", R::LANES);
             assert!(caught.is_err(), "index {bad} in lane {lane} of {}", R::LANES);
         }
     }
