@@ -51,9 +51,9 @@ fn blocks(terrain: &Heightfield) -> Arc<Solids> {
 }
 
 fn inputs(players: usize, tick: u64) -> Vec<RawInput> {
-    let fire = |k: u64| u8::from((tick / 40 + k) % 3 == 0);
+    let fire = |k: u64| u8::from((tick / 40 + k).is_multiple_of(3));
     (0..players as u64)
-        .map(|k| RawInput { fire: fire(k), pitch: (k % 5) as f64 * 0.6 - 1.4, ..keys(k, tick) })
+        .map(|k| RawInput { fire: fire(k), pitch: (k % 5) as f64 * 0.3 - 1.4, ..keys(k, tick) })
         .collect()
 }
 
@@ -70,8 +70,8 @@ fn scatter(crew: &mut Crew, players: usize) {
 }
 
 /// Plays the same ticks at every width and compares all bits as they go; half-way everybody goes on from
-/// another's snapshot.
-fn agree(setup: &SimulatorSetup<'_>, ticks: u64) {
+/// another's snapshot. Returns how many bursts were seen, and the last digest.
+fn agree(setup: &SimulatorSetup<'_>, ticks: u64) -> (usize, String) {
     let players = setup.players;
     let make = |lanes| {
         let mut crew = Crew::new(&SimulatorSetup { lanes: Some(lanes), ..*setup });
@@ -84,9 +84,11 @@ fn agree(setup: &SimulatorSetup<'_>, ticks: u64) {
     let what = |sim: &dyn Bodies, tick: u64| {
         format!("{} {} {players} players, {} lanes, tick {tick}", setup.scene, setup.fidelity, sim.lanes())
     };
+    let mut bursts = 0;
     for tick in 0..ticks {
         let inputs = inputs(players, tick);
         one.step(&inputs, 1).unwrap();
+        bursts += one.blasts().len();
         for sim in &mut wide {
             sim.step(&inputs, 1).unwrap();
             if tick % 10 == 0 || tick + 1 == ticks {
@@ -102,6 +104,7 @@ fn agree(setup: &SimulatorSetup<'_>, ticks: u64) {
             }
         }
     }
+    (bursts, one.digest())
 }
 
 #[test]
@@ -121,7 +124,13 @@ fn every_scene_and_tier_over_hundreds_of_ticks() {
     let solids = blocks(&map);
     for tier in TIERS {
         for scene in SCENES {
-            agree(&SimulatorSetup { players: 37, scene, solids: Some(&solids), ..setup(&map, tier) }, 300);
+            let s = SimulatorSetup { players: 37, scene, solids: Some(&solids), ..setup(&map, tier) };
+            let (bursts, digest) = agree(&s, 300);
+            assert!(bursts > 40 || scene == "ski" || scene == "sandbox", "{bursts} bursts");
+            if scene == "mission" {
+                let (_, bare) = agree(&SimulatorSetup { solids: None, ..s }, 300);
+                assert_ne!(digest, bare, "the blocks stood in nobody's way");
+            }
         }
     }
 }

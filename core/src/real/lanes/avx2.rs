@@ -83,13 +83,13 @@ impl Int for I32x8 {
         if n & (n - 1) == 0 {
             return Self(unsafe { _mm256_and_si256(self.0, _mm256_set1_epi32(n - 1)) });
         }
-        Self(wrap_lanes!(self.0, 8, n))
+        Self(wrap_lanes!(self.0, 8, __m256i, n))
     }
     #[inline(always)]
     fn is_odd(self) -> Mask8 {
         Mask8(unsafe { _mm256_srai_epi32::<31>(_mm256_slli_epi32::<31>(self.0)) })
     }
-    lane_access!(i32, 8);
+    lane_access!(i32, 8, __m256i);
 }
 
 operators!(F32x8: Add::add = _mm256_add_ps, Sub::sub = _mm256_sub_ps, Mul::mul = _mm256_mul_ps, Div::div = _mm256_div_ps);
@@ -125,7 +125,7 @@ impl Real for F32x8 {
     fn pack(each: &[f32; 8]) -> Self {
         Self(unsafe { _mm256_loadu_ps(each.as_ptr()) })
     }
-    lane_access!(f32, 8);
+    lane_access!(f32, 8, __m256);
     #[inline(always)]
     fn lt(self, other: Self) -> Mask8 {
         Mask8(unsafe { _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) })

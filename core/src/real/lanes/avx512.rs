@@ -91,13 +91,13 @@ impl Int for I32x16 {
         if n & (n - 1) == 0 {
             return Self(unsafe { _mm512_and_si512(self.0, _mm512_set1_epi32(n - 1)) });
         }
-        Self(wrap_lanes!(self.0, 16, n))
+        Self(wrap_lanes!(self.0, 16, __m512i, n))
     }
     #[inline(always)]
     fn is_odd(self) -> Mask16 {
         Mask16(unsafe { _mm512_test_epi32_mask(self.0, _mm512_set1_epi32(1)) })
     }
-    lane_access!(i32, 16);
+    lane_access!(i32, 16, __m512i);
 }
 
 operators!(F32x16: Add::add = _mm512_add_ps, Sub::sub = _mm512_sub_ps, Mul::mul = _mm512_mul_ps, Div::div = _mm512_div_ps);
@@ -136,7 +136,7 @@ impl Real for F32x16 {
     fn pack(each: &[f32; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(each.as_ptr()) })
     }
-    lane_access!(f32, 16);
+    lane_access!(f32, 16, __m512);
     #[inline(always)]
     fn lt(self, other: Self) -> Mask16 {
         Mask16(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })

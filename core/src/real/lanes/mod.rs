@@ -79,20 +79,20 @@ use operators;
 /// One lane of a register, read and written through an array on the stack. The register itself stays
 /// one: an index into it would force it into memory.
 macro_rules! lane_access {
-    ($scalar:ty, $count:expr) => {
+    ($scalar:ty, $count:expr, $register:ty) => {
         #[inline(always)]
         fn lane(self, lane: usize) -> $scalar {
             // SAFETY: a register is as large as the array of its lanes, and both are plain bits.
-            let lanes: [$scalar; $count] = unsafe { core::mem::transmute(self.0) };
+            let lanes = unsafe { core::mem::transmute::<$register, [$scalar; $count]>(self.0) };
             lanes[lane]
         }
         #[inline(always)]
         fn set_lane(&mut self, lane: usize, x: $scalar) {
             // SAFETY: as above.
-            let mut lanes: [$scalar; $count] = unsafe { core::mem::transmute(self.0) };
+            let mut lanes = unsafe { core::mem::transmute::<$register, [$scalar; $count]>(self.0) };
             lanes[lane] = x;
             // SAFETY: as above.
-            self.0 = unsafe { core::mem::transmute::<[$scalar; $count], _>(lanes) };
+            self.0 = unsafe { core::mem::transmute::<[$scalar; $count], $register>(lanes) };
         }
     };
 }
@@ -100,14 +100,14 @@ use lane_access;
 
 /// An integer modulo `n > 0`, lane by lane: only maps whose sides are no powers of two need it.
 macro_rules! wrap_lanes {
-    ($register:expr, $count:expr, $n:expr) => {{
+    ($value:expr, $count:expr, $register:ty, $n:expr) => {{
         // SAFETY: a register is as large as the array of its lanes, and both are plain bits.
-        let mut lanes: [i32; $count] = unsafe { core::mem::transmute($register) };
+        let mut lanes = unsafe { core::mem::transmute::<$register, [i32; $count]>($value) };
         for lane in &mut lanes {
             *lane = lane.rem_euclid($n);
         }
         // SAFETY: as above.
-        unsafe { core::mem::transmute::<[i32; $count], _>(lanes) }
+        unsafe { core::mem::transmute::<[i32; $count], $register>(lanes) }
     }};
 }
 use wrap_lanes;

@@ -177,7 +177,7 @@ fn operands<R: Real<Scalar = f32>>(round: u64) -> Operands<R> {
     let (mut i, mut j, mut index, mut mask, mut other) = (zero, zero, zero, off, off);
     for lane in 0..R::LANES {
         i.set_lane(lane, integer(at(lane, 0)));
-        j.set_lane(lane, if round % 3 == 0 { integer(at(lane, 0)) } else { integer(at(lane, 1)) });
+        j.set_lane(lane, if round.is_multiple_of(3) { integer(at(lane, 0)) } else { integer(at(lane, 1)) });
         index.set_lane(lane, integer(at(lane, 2)).rem_euclid(TABLE as i32 - 1));
         mask.set_lane(lane, integer(at(lane, 3)) & 1 == 1);
         other.set_lane(lane, integer(at(lane, 4)) % 7 == 0);
