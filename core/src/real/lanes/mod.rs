@@ -37,8 +37,8 @@ fn out_of_range(len: usize) -> ! {
     panic!("an index of a gather is negative, or not below the table's length of {len}")
 }
 
-/// `table[index]` and `table[index + 1]` of 8 lanes by plain loads of 8 bytes: a gather instruction takes
-/// longer on every processor that this was measured on.
+/// `table[index]` and `table[index + 1]` of 8 lanes by plain loads of 8 bytes, half as many as two
+/// gather instructions make; on AMD, whose gathers are microcode, that was the longest wait of a march.
 ///
 /// # Safety
 /// The processor has AVX2, and for every index both places lie in the table.
