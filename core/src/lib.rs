@@ -13,7 +13,7 @@
 //!           player, scene   his state, and which parts of it a scene models
 //!           arms            his launcher and its projectiles: constants and state
 //!             armor, rules  constants
-//!             real          the number type: f64, f32, later lanes
+//!             real          the number type: f64, f32, and lanes of f32
 //! random                    counted draws, used by terrain, task and batch
 //! float_environment         rounding as the language has it, whatever the caller's thread was set to
 //! ```

@@ -66,6 +66,7 @@ impl Simulator {
             physics: physics.switches()?,
             tick_ms,
             threads,
+            lanes: None,
         };
         Ok(Self { bodies: setup.build().map_err(refused)? })
     }

@@ -67,15 +67,14 @@ impl<R: Real> Projectile<R> {
     #[inline(always)]
     #[must_use]
     pub fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
-        let int = |a, b| R::Int::select(mask, a, b);
         Self {
             position: V3::select(mask, a.position, b.position),
-            tile_x: int(a.tile_x, b.tile_x),
-            tile_y: int(a.tile_y, b.tile_y),
+            tile_x: R::Int::select(mask, a.tile_x, b.tile_x),
+            tile_y: R::Int::select(mask, a.tile_y, b.tile_y),
             velocity: V3::select(mask, a.velocity, b.velocity),
-            age: int(a.age, b.age),
-            phase: int(a.phase, b.phase),
-            clock: int(a.clock, b.clock),
+            age: R::Int::select(mask, a.age, b.age),
+            phase: R::Int::select(mask, a.phase, b.phase),
+            clock: R::Int::select(mask, a.clock, b.clock),
             axis: V3::select(mask, a.axis, b.axis),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::error::{InputError, refuse};
 use crate::input::{Input, MAX_TURN_RATE};
-use crate::real::Scalar;
+use crate::real::{Real, Scalar};
 
 /// One player's keys as they cross the border: the layout of `discjump.INPUT`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,6 +49,34 @@ impl RawInput {
         Ok(())
     }
 
+    /// The keys of up to as many players as `R` has lanes, side by side; the other lanes are idle.
+    #[inline(always)]
+    pub(super) fn pack<R: Real>(players: &[Self]) -> Input<R> {
+        let mut columns = [R::each(|_| R::Scalar::default()); 7];
+        for (lane, player) in players.iter().enumerate() {
+            let keys = player.to_input::<R::Scalar>();
+            let flag = |pressed: bool| R::Scalar::from_int(i32::from(pressed));
+            columns[0].as_mut()[lane] = keys.forward;
+            columns[1].as_mut()[lane] = keys.strafe;
+            columns[2].as_mut()[lane] = keys.turn;
+            columns[3].as_mut()[lane] = keys.pitch;
+            columns[4].as_mut()[lane] = flag(keys.jump);
+            columns[5].as_mut()[lane] = flag(keys.jet);
+            columns[6].as_mut()[lane] = flag(keys.fire);
+        }
+        let zero = R::zero();
+        Input {
+            forward: R::pack(&columns[0]),
+            strafe: R::pack(&columns[1]),
+            turn: R::pack(&columns[2]),
+            pitch: R::pack(&columns[3]),
+            jump: zero.lt(R::pack(&columns[4])),
+            jet: zero.lt(R::pack(&columns[5])),
+            fire: zero.lt(R::pack(&columns[6])),
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn to_input<T: Scalar>(self) -> Input<T> {
         Input {
             forward: T::from_f64(f64::from(self.forward)),

@@ -101,22 +101,34 @@ impl<'a, T: Scalar> Stage<'a, T> {
         input: &Input<R>,
     ) {
         self.aim(body, input);
-        let near = self.near_solids(body);
-        if !near.any() {
+        if !S::SOLIDS {
             self.play::<S, M, R, _>(body, input, &self.surface);
             return;
         }
+        let near = self.near_solids(body);
         // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
-        let before = *body;
-        if R::LANES > 1 {
+        let mut before = None;
+        if near.any() {
+            before = Some(*body);
+        }
+        if R::LANES > 1 || before.is_none() {
             self.play::<S, M, R, _>(body, input, &self.surface);
         }
-        for lane in (0..R::LANES).filter(|&lane| near.lane(lane)) {
-            let mut one = before.lane(lane);
-            let world = self.around(&[], 0);
-            self.play::<S, M, T, _>(&mut one, &input.lane(lane), &world);
-            body.set_lane(lane, &one);
+        if let Some(before) = before {
+            for lane in (0..R::LANES).filter(|&lane| near.lane(lane)) {
+                let mut one = before.lane(lane);
+                self.play_near::<S, M>(&mut one, &input.lane(lane));
+                body.set_lane(lane, &one);
+            }
         }
+    }
+
+    /// Everything after the trigger, for one player near a solid. Rare, and long: one copy of it serves
+    /// every lane width.
+    #[inline(never)]
+    fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
+        let world = self.around(&[], 0);
+        self.play::<S, M, T, _>(body, input, &world);
     }
 
     /// A tick of several players in one world. They move one after the other, each past the others as

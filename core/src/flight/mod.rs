@@ -11,13 +11,40 @@ pub use fire::fire;
 
 use crate::arms::{Arms, Arsenal, BURST, FREE, Flight, Projectile};
 use crate::movement::Obstacles;
-use crate::real::{Int, Mask, Real, V3};
+use crate::real::{Int, Mask, Real, V3, Work};
 
 /// Moves all projectiles of a launcher through one tick, the one just fired included. `map` is the
 /// shooter's; `world` is the world as his projectiles see it, without himself: nothing that a player
 /// fires ever meets him (the sources spare him by rule for a disc, for 250 ms for a shell).
 #[inline(always)]
 pub fn fly<R: Real, W: Obstacles<R>>(
+    arms: &mut Arms<R>,
+    map: R::Int,
+    world: &W,
+    arsenal: &Arsenal<R::Scalar>,
+) {
+    R::enter(Fly { arms, map, world, arsenal });
+}
+
+/// See [`fly`]: compiled once for each lane width, not once for each scene and tier.
+struct Fly<'a, R: Real, W: Obstacles<R>> {
+    arms: &'a mut Arms<R>,
+    map: R::Int,
+    world: &'a W,
+    arsenal: &'a Arsenal<R::Scalar>,
+}
+
+impl<R: Real, W: Obstacles<R>> Work for Fly<'_, R, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        fly_all(self.arms, self.map, self.world, self.arsenal);
+    }
+}
+
+#[inline(always)]
+fn fly_all<R: Real, W: Obstacles<R>>(
     arms: &mut Arms<R>,
     map: R::Int,
     world: &W,

@@ -9,6 +9,7 @@
 //! order written; no fused multiply-add, no platform libm. A vector lane then gives the bits of the
 //! scalar.
 
+pub(crate) mod lanes;
 mod ops;
 mod scalar;
 mod sincos;
@@ -20,6 +21,15 @@ pub use vec3::V3;
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Something to be done with lanes of one width, in code that is compiled for their instruction set:
+/// see [`Real::enter`]. `run` must be `#[inline(always)]`.
+pub trait Work {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run(self) -> Self::Output;
+}
 
 /// A real number, or several players' numbers side by side.
 pub trait Real:
@@ -46,10 +56,17 @@ pub trait Real:
     /// How many players one value holds.
     const LANES: usize;
 
+    /// Does some work in a function that is compiled for the instruction set of these lanes.
+    #[inline(always)]
+    fn enter<W: Work>(work: W) -> W::Output {
+        work.run()
+    }
     /// The same number in every lane.
     fn splat(x: Self::Scalar) -> Self;
     /// `f(lane)` for every lane.
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> Self::Each<T>;
+    /// The numbers of all lanes at once.
+    fn pack(each: &Self::Each<Self::Scalar>) -> Self;
     /// The number in one lane.
     fn lane(self, lane: usize) -> Self::Scalar;
     /// Overwrites one lane.
@@ -73,6 +90,11 @@ pub trait Real:
     /// # Panics
     /// If an index is negative or not below the table's length.
     fn gather(table: &[Self::Scalar], index: Self::Int) -> Self;
+    /// `table[index]` and `table[index + 1]`, lane by lane: half the cost of two gathers.
+    ///
+    /// # Panics
+    /// If an index is negative, or its successor not below the table's length.
+    fn gather_pair(table: &[Self::Scalar], index: Self::Int) -> (Self, Self);
 
     /// A constant of the specification, rounded to the lane's type.
     #[inline(always)]

@@ -48,6 +48,10 @@ macro_rules! scalar {
                 [f(0)]
             }
             #[inline(always)]
+            fn pack(each: &[$t; 1]) -> Self {
+                each[0]
+            }
+            #[inline(always)]
             fn lane(self, _lane: usize) -> $t {
                 self
             }
@@ -86,6 +90,11 @@ macro_rules! scalar {
             #[inline(always)]
             fn gather(table: &[$t], index: i32) -> Self {
                 table[index as usize]
+            }
+            #[inline(always)]
+            fn gather_pair(table: &[$t], index: i32) -> (Self, Self) {
+                let [first, second] = table[index as usize..][..2] else { unreachable!() };
+                (first, second)
             }
         }
     };

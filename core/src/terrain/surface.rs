@@ -108,8 +108,8 @@ impl<'a, T: Scalar> Surface<'a, T> {
     #[inline(always)]
     pub(super) fn square_of<R: Real<Scalar = T>>(&self, x: R, y: R) -> (R::Int, R::Int) {
         let inverse = R::splat(self.inverse);
-        let index = |x: R| (x * inverse).floor_int().clamp(-FARTHEST, FARTHEST);
-        (index(x), index(y))
+        let (i, j) = ((x * inverse).floor_int(), (y * inverse).floor_int());
+        (i.clamp(-FARTHEST, FARTHEST), j.clamp(-FARTHEST, FARTHEST))
     }
 
     /// The corners of a square of a map.
@@ -120,16 +120,16 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let (last_i, last_j) = (self.cols - 2, self.rows - 2);
         let one = R::Int::splat(1);
         let mut ground = R::Mask::splat(true);
-        // (column, row) of the corners, and the square whose parity counts.
-        let (west, east, south, north, parity);
+        // Where the pair of columns begins, the rows, and the square whose parity counts.
+        let (column, south, north, parity);
         match self.edge {
             Edge::Tile => {
                 let (a, b) = (i.wrap(self.cols - 1), j.wrap(self.rows - 1));
-                (west, east, south, north) = (a, a + one, b, b + one);
+                (column, south, north) = (a, b, b + one);
                 parity = a + b;
             }
             Edge::Clamp => {
-                (west, east) = (i.clamp(0, self.cols - 1), (i + one).clamp(0, self.cols - 1));
+                column = i.clamp(0, last_i);
                 (south, north) = (j.clamp(0, self.rows - 1), (j + one).clamp(0, self.rows - 1));
                 parity = i + j;
             }
@@ -139,7 +139,7 @@ impl<'a, T: Scalar> Surface<'a, T> {
                 let outside = outside.or(j.lt(zero)).or(R::Int::splat(last_j).lt(j));
                 ground = outside.not();
                 let (a, b) = (i.clamp(0, last_i), j.clamp(0, last_j));
-                (west, east, south, north) = (a, a + one, b, b + one);
+                (column, south, north) = (a, b, b + one);
                 parity = i + j;
             }
         }
@@ -147,10 +147,20 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let south = map + south * cols;
         let north = map + north * cols;
         let mirrored = parity.is_odd();
-        let left = R::Int::select(mirrored, east, west);
-        let right = R::Int::select(mirrored, west, east);
-        let at = |index| R::gather(self.heights, index);
-        let corner = [at(south + left), at(south + right), at(north + left), at(north + right)];
+        let (mut sw, mut se) = R::gather_pair(self.heights, south + column);
+        let (mut nw, mut ne) = R::gather_pair(self.heights, north + column);
+        if self.edge == Edge::Clamp {
+            // Beyond the rim both corners are the nearer one of the last pair.
+            let (beyond_west, beyond_east) = (i.lt(R::Int::splat(0)), R::Int::splat(last_i).lt(i));
+            (sw, se) = (R::select(beyond_east, se, sw), R::select(beyond_west, sw, se));
+            (nw, ne) = (R::select(beyond_east, ne, nw), R::select(beyond_west, nw, ne));
+        }
+        let corner = [
+            R::select(mirrored, se, sw),
+            R::select(mirrored, sw, se),
+            R::select(mirrored, ne, nw),
+            R::select(mirrored, nw, ne),
+        ];
         Square { corner, mirrored, ground }
     }
 
@@ -205,8 +215,9 @@ impl<'a, T: Scalar> Surface<'a, T> {
         }
         let turns = ((x - low) / period).floor_int();
         let wrapped = x - R::from_int(turns) * period;
+        let turned = (tile + turns).clamp(-MAX_TILES, MAX_TILES);
         // Rounding may leave it a hair outside; the square lookup wraps again, so that is harmless.
-        (R::select(outside, wrapped, x), (tile + turns).clamp(-MAX_TILES, MAX_TILES))
+        (R::select(outside, wrapped, x), R::Int::select(outside, turned, tile))
     }
 
     /// Metres from a local point in one tile to a point in another, along x and y.

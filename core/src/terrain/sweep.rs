@@ -1,7 +1,7 @@
 //! The exact sweep of a point against the triangulated surface (docs/physics.md, section 5).
 
 use super::surface::{Square, Surface, unit_normal};
-use crate::real::{Int, Mask, Real, Scalar, V3};
+use crate::real::{Int, Mask, Real, Scalar, V3, Work};
 
 /// The first contact along a path.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +87,25 @@ fn contact<R: Real, const TWO_SIDED: bool>(
     (hit, fraction, square.world_slope(&plane), plane.gy)
 }
 
+/// A walk over the squares under a path, compiled once for each lane width: it is most of a tick, and
+/// every scene and tier makes it.
+struct March<'a, R: Real, const TWO_SIDED: bool> {
+    surface: &'a Surface<'a, R::Scalar>,
+    map: R::Int,
+    start: V3<R>,
+    path: V3<R>,
+    active: R::Mask,
+}
+
+impl<R: Real, const TWO_SIDED: bool> Work for March<'_, R, TWO_SIDED> {
+    type Output = Hit<R>;
+
+    #[inline(always)]
+    fn run(self) -> Hit<R> {
+        self.surface.march::<R, TWO_SIDED>(self.map, self.start, self.path, self.active)
+    }
+}
+
 impl<T: Scalar> Surface<'_, T> {
     /// Sweeps a point from a local position along a displacement, both in metres, and finds the
     /// first triangle that it meets from above, or that it is already below where it enters the
@@ -101,7 +120,7 @@ impl<T: Scalar> Surface<'_, T> {
         path: V3<R>,
         active: R::Mask,
     ) -> Hit<R> {
-        self.march::<R, false>(map, start, path, active)
+        R::enter(March::<R, false> { surface: self, map, start, path, active })
     }
 
     /// Follows a line from a local position along a displacement, both in metres, to the first
@@ -117,7 +136,7 @@ impl<T: Scalar> Surface<'_, T> {
         path: V3<R>,
         active: R::Mask,
     ) -> Hit<R> {
-        self.march::<R, true>(map, start, path, active)
+        R::enter(March::<R, true> { surface: self, map, start, path, active })
     }
 
     /// Walks the squares under a path in order and stops at the first contact.

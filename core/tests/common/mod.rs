@@ -87,6 +87,7 @@ pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<
         physics: Physics::default(),
         tick_ms: 32,
         threads: Some(1),
+        lanes: None,
     }
 }
 

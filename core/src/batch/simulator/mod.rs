@@ -21,11 +21,12 @@ use crate::float_environment::DefaultFloats;
 use crate::input::Input;
 use crate::movement::Movement;
 use crate::player::{Field, packed_bytes};
-use crate::real::Real;
+use crate::real::{Real, Work};
 use crate::rules::Rules;
 use crate::scene::Scene;
 use crate::solids::Solids;
 use crate::terrain::Maps;
+use core::marker::PhantomData;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -48,6 +49,8 @@ pub trait Bodies: Send + Sync {
     }
     /// Bytes that one player takes in memory.
     fn player_bytes(&self) -> usize;
+    /// How many players are stepped side by side, in one instruction: 1, 8 or 16. No bit depends on it.
+    fn lanes(&self) -> usize;
     /// The scene's name.
     fn scene(&self) -> &'static str;
     /// All players' states, packed, one after the other.
@@ -99,7 +102,7 @@ pub struct Simulator<S: Scene, M: Movement, R: Real> {
     /// Whether a step panicked half-way: better no bits than wrong ones.
     broken: bool,
     layout: String,
-    movement: core::marker::PhantomData<M>,
+    movement: PhantomData<M>,
 }
 
 impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
@@ -131,6 +134,29 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     }
 }
 
+/// Ticks of players who are alone in their worlds.
+struct PlayAlone<'a, S: Scene, M: Movement, R: Real> {
+    stage: &'a Stage<'a, R::Scalar>,
+    blocks: &'a mut [Body<S, R>],
+    raw: &'a [RawInput],
+    ticks: u32,
+    movement: PhantomData<M>,
+}
+
+impl<S: Scene, M: Movement, R: Real> Work for PlayAlone<'_, S, M, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (block, raw) in self.blocks.iter_mut().zip(self.raw.chunks(R::LANES)) {
+            let input = RawInput::pack::<R>(raw);
+            for _ in 0..self.ticks {
+                self.stage.tick_alone::<S, M, R>(block, &input);
+            }
+        }
+    }
+}
+
 /// Plays ticks of blocks that hold whole worlds.
 fn play<S: Scene, M: Movement, R: Real>(
     stage: &Stage<'_, R::Scalar>,
@@ -141,11 +167,7 @@ fn play<S: Scene, M: Movement, R: Real>(
 ) {
     let _floats = DefaultFloats::enter();
     if per_world == 1 {
-        for (block, raw) in blocks.iter_mut().zip(raw.chunks(R::LANES)) {
-            let mut input = Input::<R>::idle();
-            raw.iter().enumerate().for_each(|(lane, r)| input.set_lane(lane, &r.to_input()));
-            (0..ticks).for_each(|_| stage.tick_alone::<S, M, R>(block, &input));
-        }
+        R::enter(PlayAlone::<S, M, R> { stage, blocks, raw, ticks, movement: PhantomData });
         return;
     }
     let mut stands: Vec<Stand> = Vec::with_capacity(per_world);
@@ -169,6 +191,10 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
 
     fn player_bytes(&self) -> usize {
         size_of::<Body<S, R>>() / R::LANES
+    }
+
+    fn lanes(&self) -> usize {
+        R::LANES
     }
 
     fn scene(&self) -> &'static str {

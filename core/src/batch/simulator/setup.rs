@@ -9,6 +9,9 @@ use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
 use crate::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use crate::player::Player;
+#[cfg(target_arch = "x86_64")]
+use crate::real::lanes::{F32x8, F32x16};
+use crate::real::lanes::{Width, lane_width};
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules, named};
 use crate::scene::{DiscJump, Group, Mission, Sandbox, Scene, Ski, scenes};
@@ -56,6 +59,10 @@ pub struct SimulatorSetup<'a> {
     pub tick_ms: u32,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
+    /// Players stepped side by side: 1, 8 or 16. Where absent the environment variable `DISCJUMP_LANES`
+    /// says, else the processor: as many as it can. No bit of any result depends on it. Only
+    /// "authentic", "swept" and "fast" have lanes, and only where every player is alone in his world.
+    pub lanes: Option<usize>,
 }
 
 /// The armor of a public name.
@@ -107,15 +114,29 @@ impl SimulatorSetup<'_> {
     fn tier<S: Scene>(&self) -> Result<Box<dyn Bodies>, InputError> {
         match self.fidelity {
             "reference" => self.kernel::<S, Sliced, f64>(),
-            "authentic" => self.kernel::<S, Sliced, f32>(),
-            "swept" => self.kernel::<S, Swept, f32>(),
-            "fast" => self.kernel::<S, Fast, f32>(),
+            "authentic" => self.side_by_side::<S, Sliced>(),
+            "swept" => self.side_by_side::<S, Swept>(),
+            "fast" => self.side_by_side::<S, Fast>(),
             "engine" => self.kernel::<S, Engine, f32>(),
             "anyway" => self.kernel::<S, Anyway, f32>(),
             other => refuse!(
                 "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\", \"engine\" or \"anyway\", \
                  got {other:?}"
             ),
+        }
+    }
+
+    /// The kernel of a tier that has lanes.
+    fn side_by_side<S: Scene, M: Movement>(&self) -> Result<Box<dyn Bodies>, InputError> {
+        if self.players_per_world > 1 {
+            return self.kernel::<S, M, f32>();
+        }
+        match lane_width(self.lanes, self.players)? {
+            Width::One => self.kernel::<S, M, f32>(),
+            #[cfg(target_arch = "x86_64")]
+            Width::Eight => self.kernel::<S, M, F32x8>(),
+            #[cfg(target_arch = "x86_64")]
+            Width::Sixteen => self.kernel::<S, M, F32x16>(),
         }
     }
 
@@ -135,6 +156,7 @@ impl SimulatorSetup<'_> {
         {
             refuse!("ammo: expected 0 to 1000000, got {ammo}");
         }
+        lane_width(self.lanes, self.players)?;
         check_tick(self.tick_ms)
     }
 

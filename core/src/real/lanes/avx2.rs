@@ -1,0 +1,198 @@
+//! 8 lanes: AVX2.
+
+use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use crate::real::{Int, Mask, Real, Work};
+use core::arch::x86_64::*;
+use core::ops::Neg;
+
+/// 8 numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct F32x8(__m256);
+
+/// 8 integers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct I32x8(__m256i);
+
+/// All bits set, or none, in each of 8 lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mask8(__m256i);
+
+#[inline(never)]
+#[target_feature(enable = "avx2")]
+fn with_avx2<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+// SAFETY of every intrinsic below: whoever holds a lane, or makes the first one, checked that the
+// processor has AVX2.
+impl Mask for Mask8 {
+    #[inline(always)]
+    fn splat(x: bool) -> Self {
+        Self(unsafe { _mm256_set1_epi32(if x { -1 } else { 0 }) })
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        unsafe { _mm256_movemask_ps(_mm256_castsi256_ps(self.0)) != 0 }
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(unsafe { _mm256_and_si256(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(unsafe { _mm256_or_si256(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(unsafe { _mm256_xor_si256(self.0, _mm256_set1_epi32(-1)) })
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        I32x8(self.0).lane(lane) != 0
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, x: bool) {
+        let mut lanes = I32x8(self.0);
+        lanes.set_lane(lane, -i32::from(x));
+        self.0 = lanes.0;
+    }
+}
+
+operators!(I32x8: Add::add = _mm256_add_epi32, Sub::sub = _mm256_sub_epi32, Mul::mul = _mm256_mullo_epi32);
+
+impl Int for I32x8 {
+    type Mask = Mask8;
+    #[inline(always)]
+    fn splat(x: i32) -> Self {
+        Self(unsafe { _mm256_set1_epi32(x) })
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask8 {
+        Mask8(unsafe { _mm256_cmpgt_epi32(other.0, self.0) })
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Mask8 {
+        Mask8(unsafe { _mm256_cmpeq_epi32(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: Mask8, a: Self, b: Self) -> Self {
+        Self(unsafe { _mm256_blendv_epi8(b.0, a.0, mask.0) })
+    }
+    #[inline(always)]
+    fn wrap(self, n: i32) -> Self {
+        if n & (n - 1) == 0 {
+            return Self(unsafe { _mm256_and_si256(self.0, _mm256_set1_epi32(n - 1)) });
+        }
+        Self(wrap_lanes!(self.0, 8, __m256i, n))
+    }
+    #[inline(always)]
+    fn is_odd(self) -> Mask8 {
+        Mask8(unsafe { _mm256_srai_epi32::<31>(_mm256_slli_epi32::<31>(self.0)) })
+    }
+    lane_access!(i32, 8, __m256i);
+}
+
+operators!(F32x8: Add::add = _mm256_add_ps, Sub::sub = _mm256_sub_ps, Mul::mul = _mm256_mul_ps, Div::div = _mm256_div_ps);
+
+impl Neg for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
+    }
+}
+
+impl Real for F32x8 {
+    type Scalar = f32;
+    type Int = I32x8;
+    type Mask = Mask8;
+    type Each<T: Copy + Send + Sync> = [T; 8];
+    const LANES: usize = 8;
+
+    #[inline(always)]
+    fn enter<W: Work>(work: W) -> W::Output {
+        unsafe { with_avx2(work) }
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self(unsafe { _mm256_set1_ps(x) })
+    }
+    #[inline(always)]
+    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 8] {
+        core::array::from_fn(f)
+    }
+    #[inline(always)]
+    fn pack(each: &[f32; 8]) -> Self {
+        Self(unsafe { _mm256_loadu_ps(each.as_ptr()) })
+    }
+    lane_access!(f32, 8, __m256);
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask8 {
+        Mask8(unsafe { _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) })
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Mask8 {
+        Mask8(unsafe { _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) })
+    }
+    #[inline(always)]
+    fn select(mask: Mask8, a: Self, b: Self) -> Self {
+        Self(unsafe { _mm256_blendv_ps(b.0, a.0, _mm256_castsi256_ps(mask.0)) })
+    }
+    // The instructions' own rule, with the second operand where neither is less, is the trait's.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
+    }
+    #[inline(always)]
+    fn truncate(self) -> I32x8 {
+        I32x8(unsafe {
+            // What does not fit gives i32::MIN: right at the lower end, wrong at the upper one and for NaN.
+            let plain = _mm256_cvttps_epi32(self.0);
+            let above = _mm256_cmp_ps::<_CMP_GE_OQ>(self.0, _mm256_set1_ps(2_147_483_648.0));
+            let capped = _mm256_blendv_epi8(plain, _mm256_set1_epi32(i32::MAX), _mm256_castps_si256(above));
+            let number = _mm256_cmp_ps::<_CMP_ORD_Q>(self.0, self.0);
+            _mm256_and_si256(capped, _mm256_castps_si256(number))
+        })
+    }
+    #[inline(always)]
+    fn from_int(i: I32x8) -> Self {
+        Self(unsafe { _mm256_cvtepi32_ps(i.0) })
+    }
+    #[inline(always)]
+    fn gather(table: &[f32], index: I32x8) -> Self {
+        let len = u32::try_from(table.len()).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            let larger = _mm256_max_epu32(index.0, _mm256_set1_epi32(len));
+            if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
+                out_of_range(table.len());
+            }
+            Self(_mm256_i32gather_ps::<4>(table.as_ptr(), index.0))
+        }
+    }
+    #[inline(always)]
+    fn gather_pair(table: &[f32], index: I32x8) -> (Self, Self) {
+        let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            let larger = _mm256_max_epu32(index.0, _mm256_set1_epi32(last));
+            if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
+                out_of_range(table.len());
+            }
+            let (first, second) = load_pairs(table, &core::mem::transmute::<__m256i, [i32; 8]>(index.0));
+            (Self(first), Self(second))
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! 16 lanes: AVX-512.
+
+use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use crate::real::{Int, Mask, Real, Work};
+use core::arch::x86_64::*;
+use core::ops::Neg;
+
+/// Two halves of a register.
+///
+/// # Safety
+/// The processor has AVX-512.
+#[inline(always)]
+unsafe fn join(low: __m256, high: __m256) -> __m512 {
+    // SAFETY: the caller's promise.
+    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high) }
+}
+
+/// 16 numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct F32x16(__m512);
+
+/// 16 integers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct I32x16(__m512i);
+
+/// A bit for each of 16 lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mask16(u16);
+
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+fn with_avx512<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+impl Mask for Mask16 {
+    #[inline(always)]
+    fn splat(x: bool) -> Self {
+        Self(if x { u16::MAX } else { 0 })
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0 != 0
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        self.0 >> lane & 1 == 1
+    }
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, x: bool) {
+        self.0 = self.0 & !(1 << lane) | u16::from(x) << lane;
+    }
+}
+
+operators!(I32x16: Add::add = _mm512_add_epi32, Sub::sub = _mm512_sub_epi32, Mul::mul = _mm512_mullo_epi32);
+
+// SAFETY of every intrinsic below: whoever holds a lane, or makes the first one, checked that the
+// processor has AVX-512.
+impl Int for I32x16 {
+    type Mask = Mask16;
+    #[inline(always)]
+    fn splat(x: i32) -> Self {
+        Self(unsafe { _mm512_set1_epi32(x) })
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask16 {
+        Mask16(unsafe { _mm512_cmplt_epi32_mask(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Mask16 {
+        Mask16(unsafe { _mm512_cmpeq_epi32_mask(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: Mask16, a: Self, b: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_epi32(mask.0, b.0, a.0) })
+    }
+    #[inline(always)]
+    fn wrap(self, n: i32) -> Self {
+        if n & (n - 1) == 0 {
+            return Self(unsafe { _mm512_and_si512(self.0, _mm512_set1_epi32(n - 1)) });
+        }
+        Self(wrap_lanes!(self.0, 16, __m512i, n))
+    }
+    #[inline(always)]
+    fn is_odd(self) -> Mask16 {
+        Mask16(unsafe { _mm512_test_epi32_mask(self.0, _mm512_set1_epi32(1)) })
+    }
+    lane_access!(i32, 16, __m512i);
+}
+
+operators!(F32x16: Add::add = _mm512_add_ps, Sub::sub = _mm512_sub_ps, Mul::mul = _mm512_mul_ps, Div::div = _mm512_div_ps);
+
+impl Neg for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(unsafe {
+            let sign = _mm512_set1_epi32(i32::MIN);
+            _mm512_castsi512_ps(_mm512_xor_si512(_mm512_castps_si512(self.0), sign))
+        })
+    }
+}
+
+impl Real for F32x16 {
+    type Scalar = f32;
+    type Int = I32x16;
+    type Mask = Mask16;
+    type Each<T: Copy + Send + Sync> = [T; 16];
+    const LANES: usize = 16;
+
+    #[inline(always)]
+    fn enter<W: Work>(work: W) -> W::Output {
+        unsafe { with_avx512(work) }
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self(unsafe { _mm512_set1_ps(x) })
+    }
+    #[inline(always)]
+    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 16] {
+        core::array::from_fn(f)
+    }
+    #[inline(always)]
+    fn pack(each: &[f32; 16]) -> Self {
+        Self(unsafe { _mm512_loadu_ps(each.as_ptr()) })
+    }
+    lane_access!(f32, 16, __m512);
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask16 {
+        Mask16(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Mask16 {
+        Mask16(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: Mask16, a: Self, b: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_ps(mask.0, b.0, a.0) })
+    }
+    // The instructions' own rule, with the second operand where neither is less, is the trait's.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm512_min_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm512_max_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm512_sqrt_ps(self.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm512_abs_ps(self.0) })
+    }
+    #[inline(always)]
+    fn truncate(self) -> I32x16 {
+        I32x16(unsafe {
+            // What does not fit gives i32::MIN: right at the lower end, wrong at the upper one and for NaN.
+            let plain = _mm512_cvttps_epi32(self.0);
+            let above = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(self.0, _mm512_set1_ps(2_147_483_648.0));
+            let capped = _mm512_mask_blend_epi32(above, plain, _mm512_set1_epi32(i32::MAX));
+            let number = _mm512_cmp_ps_mask::<_CMP_ORD_Q>(self.0, self.0);
+            _mm512_maskz_mov_epi32(number, capped)
+        })
+    }
+    #[inline(always)]
+    fn from_int(i: I32x16) -> Self {
+        Self(unsafe { _mm512_cvtepi32_ps(i.0) })
+    }
+    #[inline(always)]
+    fn gather(table: &[f32], index: I32x16) -> Self {
+        let len = u32::try_from(table.len()).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            if _mm512_cmpge_epu32_mask(index.0, _mm512_set1_epi32(len)) != 0 {
+                out_of_range(table.len());
+            }
+            Self(_mm512_i32gather_ps::<4>(index.0, table.as_ptr().cast()))
+        }
+    }
+    #[inline(always)]
+    fn gather_pair(table: &[f32], index: I32x16) -> (Self, Self) {
+        let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
+        unsafe {
+            // Unsigned, so that a negative index is a large one.
+            if _mm512_cmpge_epu32_mask(index.0, _mm512_set1_epi32(last)) != 0 {
+                out_of_range(table.len());
+            }
+            let [low, high] = core::mem::transmute::<__m512i, [[i32; 8]; 2]>(index.0);
+            let (low, high) = (load_pairs(table, &low), load_pairs(table, &high));
+            (Self(join(low.0, high.0)), Self(join(low.1, high.1)))
+        }
+    }
+}
