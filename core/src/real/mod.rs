@@ -67,6 +67,12 @@ pub trait Real:
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> Self::Each<T>;
     /// The numbers of all lanes at once.
     fn pack(each: &Self::Each<Self::Scalar>) -> Self;
+    /// All lanes' numbers.
+    fn unpack(self) -> Self::Each<Self::Scalar>;
+    /// The integers of all lanes at once.
+    fn pack_int(each: &Self::Each<i32>) -> Self::Int;
+    /// All lanes' integers.
+    fn unpack_int(i: Self::Int) -> Self::Each<i32>;
     /// The number in one lane.
     fn lane(self, lane: usize) -> Self::Scalar;
     /// Overwrites one lane.
@@ -95,6 +101,20 @@ pub trait Real:
     /// # Panics
     /// If an index is negative, or its successor not below the table's length.
     fn gather_pair(table: &[Self::Scalar], index: Self::Int) -> (Self, Self);
+    /// Turns columns into rows: writes the number of lane `l` of `columns[k]`, rounded to `f32`, to
+    /// `rows[l * stride + at + k]`, for the first `count` columns and the first `players` lanes.
+    ///
+    /// # Panics
+    /// If a row does not end within `rows` or its stride, or there are more columns or players than
+    /// lanes.
+    fn write_rows(
+        columns: &Self::Each<Self>,
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    );
 
     /// A constant of the specification, rounded to the lane's type.
     #[inline(always)]

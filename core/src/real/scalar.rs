@@ -52,6 +52,18 @@ macro_rules! scalar {
                 each[0]
             }
             #[inline(always)]
+            fn unpack(self) -> [$t; 1] {
+                [self]
+            }
+            #[inline(always)]
+            fn pack_int(each: &[i32; 1]) -> i32 {
+                each[0]
+            }
+            #[inline(always)]
+            fn unpack_int(i: i32) -> [i32; 1] {
+                [i]
+            }
+            #[inline(always)]
             fn lane(self, _lane: usize) -> $t {
                 self
             }
@@ -95,6 +107,20 @@ macro_rules! scalar {
             fn gather_pair(table: &[$t], index: i32) -> (Self, Self) {
                 let [first, second] = table[index as usize..][..2] else { unreachable!() };
                 (first, second)
+            }
+            #[inline(always)]
+            fn write_rows(
+                columns: &[$t; 1],
+                count: usize,
+                rows: &mut [f32],
+                stride: usize,
+                at: usize,
+                players: usize,
+            ) {
+                assert!(count <= 1 && players <= 1 && at + count <= stride, "a column beyond the row");
+                if count == 1 && players == 1 {
+                    rows[at] = columns[0] as f32;
+                }
             }
         }
     };

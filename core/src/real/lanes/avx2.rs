@@ -1,12 +1,13 @@
 //! 8 lanes: AVX2.
 
-use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use super::{check_rows, lane_access, load_pairs, operators, out_of_range, transpose, wrap_lanes};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
 /// 8 numbers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct F32x8(__m256);
 
 /// 8 integers.
@@ -125,6 +126,18 @@ impl Real for F32x8 {
     fn pack(each: &[f32; 8]) -> Self {
         Self(unsafe { _mm256_loadu_ps(each.as_ptr()) })
     }
+    #[inline(always)]
+    fn unpack(self) -> [f32; 8] {
+        unsafe { core::mem::transmute(self.0) }
+    }
+    #[inline(always)]
+    fn pack_int(each: &[i32; 8]) -> I32x8 {
+        I32x8(unsafe { _mm256_loadu_si256(each.as_ptr().cast()) })
+    }
+    #[inline(always)]
+    fn unpack_int(i: I32x8) -> [i32; 8] {
+        unsafe { core::mem::transmute(i.0) }
+    }
     lane_access!(f32, 8, __m256);
     #[inline(always)]
     fn lt(self, other: Self) -> Mask8 {
@@ -180,6 +193,22 @@ impl Real for F32x8 {
                 out_of_range(table.len());
             }
             Self(_mm256_i32gather_ps::<4>(table.as_ptr(), index.0))
+        }
+    }
+    #[inline(always)]
+    fn write_rows(
+        columns: &[Self; 8],
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    ) {
+        check_rows(8, count, rows.len(), stride, at, players);
+        // SAFETY: as above, and the rows were checked.
+        unsafe {
+            let columns = core::mem::transmute::<&[Self; 8], &[__m256; 8]>(columns);
+            transpose::write_8(columns, count, rows.as_mut_ptr().add(at), stride, players);
         }
     }
     #[inline(always)]

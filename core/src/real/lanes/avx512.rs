@@ -1,6 +1,6 @@
 //! 16 lanes: AVX-512.
 
-use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use super::{check_rows, lane_access, load_pairs, operators, out_of_range, transpose, wrap_lanes};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
@@ -17,6 +17,7 @@ unsafe fn join(low: __m256, high: __m256) -> __m512 {
 
 /// 16 numbers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct F32x16(__m512);
 
 /// 16 integers.
@@ -136,6 +137,18 @@ impl Real for F32x16 {
     fn pack(each: &[f32; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(each.as_ptr()) })
     }
+    #[inline(always)]
+    fn unpack(self) -> [f32; 16] {
+        unsafe { core::mem::transmute(self.0) }
+    }
+    #[inline(always)]
+    fn pack_int(each: &[i32; 16]) -> I32x16 {
+        I32x16(unsafe { _mm512_loadu_si512(each.as_ptr().cast()) })
+    }
+    #[inline(always)]
+    fn unpack_int(i: I32x16) -> [i32; 16] {
+        unsafe { core::mem::transmute(i.0) }
+    }
     lane_access!(f32, 16, __m512);
     #[inline(always)]
     fn lt(self, other: Self) -> Mask16 {
@@ -190,6 +203,22 @@ impl Real for F32x16 {
                 out_of_range(table.len());
             }
             Self(_mm512_i32gather_ps::<4>(index.0, table.as_ptr().cast()))
+        }
+    }
+    #[inline(always)]
+    fn write_rows(
+        columns: &[Self; 16],
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    ) {
+        check_rows(16, count, rows.len(), stride, at, players);
+        // SAFETY: as above, and the rows were checked.
+        unsafe {
+            let columns = core::mem::transmute::<&[Self; 16], &[__m512; 16]>(columns);
+            transpose::write_16(columns, count, rows.as_mut_ptr().add(at), stride, players);
         }
     }
     #[inline(always)]

@@ -19,6 +19,8 @@ mod avx2;
 mod avx512;
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;
+#[cfg(target_arch = "x86_64")]
+mod transpose;
 mod width;
 
 #[cfg(target_arch = "x86_64")]
@@ -59,6 +61,15 @@ unsafe fn load_pairs(table: &[f32], index: &[i32; 8]) -> (__m256, __m256) {
         let (x, y) = (_mm256_castpd_ps(x), _mm256_castpd_ps(y));
         (_mm256_shuffle_ps::<0b10_00_10_00>(x, y), _mm256_shuffle_ps::<0b11_01_11_01>(x, y))
     }
+}
+
+/// What [`Real::write_rows`](crate::real::Real::write_rows) promises to panic about.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn check_rows(lanes: usize, count: usize, len: usize, stride: usize, at: usize, players: usize) {
+    let inside = players == 0 || (players - 1).saturating_mul(stride).saturating_add(stride) <= len;
+    let fits = count <= lanes && players <= lanes && at.saturating_add(count) <= stride && inside;
+    assert!(fits, "{count} columns at {at} of {players} rows of {stride} do not fit {len} numbers");
 }
 
 /// The arithmetic operators of a lane type, each one intrinsic.
