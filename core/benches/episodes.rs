@@ -57,11 +57,11 @@ impl Bench {
                 arrival_radius: 8.0,
                 goal_distance: (300.0, 800.0),
                 start_speed: 20.0,
-                turn_rate: 2.0,
+                turn_rate: 2.34375,
                 reward: Reward::default(),
             },
             actions: ActionKind::MultiDiscrete,
-            observation: SkiObservation::new(&[-45.0, 0.0, 45.0], &[8.0, 24.0, 60.0, 120.0], true)
+            observation: SkiObservation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true)
                 .expect("a valid fan"),
             autoreset: Autoreset::NextStep,
             threads: Some(self.threads),

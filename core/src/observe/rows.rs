@@ -21,7 +21,7 @@ impl<'a, R: Real> Rows<'a, R> {
     /// The rows of the first `players` lanes, `stride` numbers each.
     #[inline(always)]
     pub(super) fn new(numbers: &'a mut [f32], stride: usize, players: usize) -> Self {
-        let none = R::each(|_| R::zero());
+        let none = R::every(R::zero());
         Self { numbers, players, stride, at: 0, count: 0, pending: none, written: none }
     }
 

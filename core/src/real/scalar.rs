@@ -44,6 +44,10 @@ macro_rules! scalar {
                 x
             }
             #[inline(always)]
+            fn every<T: Copy + Send + Sync>(x: T) -> [T; 1] {
+                [x; 1]
+            }
+            #[inline(always)]
             fn each<T: Copy + Send + Sync>(mut f: impl FnMut(usize) -> T) -> [T; 1] {
                 [f(0)]
             }

@@ -100,11 +100,12 @@ fn find_bad<I: Copy + Into<i64>>(actions: &[I]) -> Option<(usize, String)> {
 #[inline(always)]
 fn discrete<R: Real, I: Copy + Into<i64>>(actions: &[I], turn_rate: R::Scalar) -> Input<R> {
     // No key, for lanes without a player.
-    let mut columns = [1, 1, 0, 0, 3].map(|idle| R::each(|_| idle));
-    for (lane, row) in actions.chunks_exact(ACTION_SIZE).enumerate() {
-        for (column, &choice) in columns.iter_mut().zip(row) {
+    let mut columns = [R::every(1_i32), R::every(1), R::every(0), R::every(0), R::every(3)];
+    // Plain loops: adapters of iterators and arrays stay calls here, for each number.
+    for lane in 0..actions.len() / ACTION_SIZE {
+        for column in 0..ACTION_SIZE {
             // Checked: it is a small number.
-            column.as_mut()[lane] = choice.into() as i32;
+            columns[column].as_mut()[lane] = actions[lane * ACTION_SIZE + column].into() as i32;
         }
     }
     let [forward, strafe, jump, jet, turn] = &columns;
@@ -121,11 +122,11 @@ fn discrete<R: Real, I: Copy + Into<i64>>(actions: &[I], turn_rate: R::Scalar) -
 
 #[inline(always)]
 fn continuous<R: Real>(actions: &[f32], turn_rate: R::Scalar) -> Input<R> {
-    let none = R::Scalar::default();
-    let mut columns = [R::each(|_| none); ACTION_SIZE];
-    for (lane, row) in actions.chunks_exact(ACTION_SIZE).enumerate() {
-        for (column, &number) in columns.iter_mut().zip(row) {
-            column.as_mut()[lane] = R::Scalar::from_f64(f64::from(number));
+    let mut columns = [R::every(R::Scalar::default()); ACTION_SIZE];
+    for lane in 0..actions.len() / ACTION_SIZE {
+        for column in 0..ACTION_SIZE {
+            let number = f64::from(actions[lane * ACTION_SIZE + column]);
+            columns[column].as_mut()[lane] = R::Scalar::from_f64(number);
         }
     }
     let [forward, strafe, jump, jet, turn] = &columns;

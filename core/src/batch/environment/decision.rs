@@ -65,7 +65,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let ticks = R::unpack_int(decision.ticks);
         let arrived = R::unpack_int(R::Int::select(decision.arrived, one, zero));
         let played = R::unpack_int(R::Int::select(decision.played, one, zero));
-        let mut rewards = R::each(|_| 0.0);
+        let mut rewards = R::every(0.0);
         let books = &mut block.episodes;
         for lane in 0..R::LANES {
             let distance = distances.as_ref()[lane].to_f64();

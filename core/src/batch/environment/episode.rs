@@ -48,14 +48,14 @@ impl<R: Real> Episodes<R> {
     /// None has begun.
     pub(super) fn none() -> Self {
         Self {
-            seed: R::each(|_| 0),
-            episode: R::each(|_| 0),
-            map: R::each(|_| 0),
-            phase: R::each(|_| Phase::default()),
-            distance: R::each(|_| 0.0),
-            start_distance: R::each(|_| 0.0),
-            total_reward: R::each(|_| 0.0),
-            length: R::each(|_| 0),
+            seed: R::every(0),
+            episode: R::every(0),
+            map: R::every(0),
+            phase: R::every(Phase::default()),
+            distance: R::every(0.0),
+            start_distance: R::every(0.0),
+            total_reward: R::every(0.0),
+            length: R::every(0),
         }
     }
 

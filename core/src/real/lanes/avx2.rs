@@ -119,6 +119,10 @@ impl Real for F32x8 {
         Self(unsafe { _mm256_set1_ps(x) })
     }
     #[inline(always)]
+    fn every<T: Copy + Send + Sync>(x: T) -> [T; 8] {
+        [x; 8]
+    }
+    #[inline(always)]
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 8] {
         core::array::from_fn(f)
     }

@@ -130,6 +130,10 @@ impl Real for F32x16 {
         Self(unsafe { _mm512_set1_ps(x) })
     }
     #[inline(always)]
+    fn every<T: Copy + Send + Sync>(x: T) -> [T; 16] {
+        [x; 16]
+    }
+    #[inline(always)]
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 16] {
         core::array::from_fn(f)
     }
