@@ -46,21 +46,26 @@ pub(super) fn landing<S: Scene, R: Real>(
     let step = R::lit(HORIZON / f64::from(LOOKS));
     let mut gap = (p.position.z - below.height).max(zero);
     let mut before = zero;
-    let mut landed_at = zero;
+    // What the last look before the landing and the first one below the ground saw.
+    let (mut above, mut under, mut from, mut to) = (zero, R::lit(-1.0), zero, zero);
     let mut falling = R::Mask::splat(true);
     for look in 1..=LOOKS {
         let time = R::from_int(R::Int::splat(look)) * step;
         let there = place(p, gravity, time);
         let next = there.z - seen_ground::<R>(surface, p.map, there.x, there.y, lowest).height;
         let lands = falling.and(next.lt(zero));
-        landed_at = R::select(lands, before + (time - before) * (gap / (gap - next)), landed_at);
+        above = R::select(lands, gap, above);
+        under = R::select(lands, next, under);
+        from = R::select(lands, before, from);
+        to = R::select(lands, time, to);
         falling = falling.and(lands.not());
         if !falling.any() {
             break;
         }
         (gap, before) = (next, time);
     }
-    let time = R::select(falling, before, landed_at);
+    let landed = from + (to - from) * (above / (above - under));
+    let time = R::select(falling, before, landed);
     let there = place(p, gravity, time);
     let ground = seen_ground::<R>(surface, p.map, there.x, there.y, lowest);
     let velocity = p.velocity + V3::new(zero, zero, gravity * time);

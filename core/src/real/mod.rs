@@ -99,11 +99,11 @@ pub trait Real:
     /// # Panics
     /// If an index is negative or not below the table's length.
     fn gather(table: &[Self::Scalar], index: Self::Int) -> Self;
-    /// `table[index]` and `table[index + 1]`, lane by lane: half the cost of two gathers.
+    /// The numbers of `table[index]` and of `table[index + 1]`, in this order, lane by lane: one load each.
     ///
     /// # Panics
     /// If an index is negative, or its successor not below the table's length.
-    fn gather_pair(table: &[Self::Scalar], index: Self::Int) -> (Self, Self);
+    fn gather_square(table: &[[Self::Scalar; 2]], index: Self::Int) -> [Self; 4];
     /// Turns columns into rows: writes the number of lane `l` of `columns[k]`, rounded to `f32`, to
     /// `rows[l * stride + at + k]`, for the first `count` columns and the first `players` lanes.
     ///

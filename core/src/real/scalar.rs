@@ -108,9 +108,9 @@ macro_rules! scalar {
                 table[index as usize]
             }
             #[inline(always)]
-            fn gather_pair(table: &[$t], index: i32) -> (Self, Self) {
-                let [first, second] = table[index as usize..][..2] else { unreachable!() };
-                (first, second)
+            fn gather_square(table: &[[$t; 2]], index: i32) -> [Self; 4] {
+                let [[a, b], [c, d]] = table[index as usize..][..2] else { unreachable!() };
+                [a, b, c, d]
             }
             #[inline(always)]
             fn write_rows(

@@ -85,13 +85,17 @@ impl Actions<'_> {
 }
 
 fn find_bad<I: Copy + Into<i64>>(actions: &[I]) -> Option<(usize, String)> {
-    for (row, action) in actions.chunks_exact(ACTION_SIZE).enumerate() {
-        for (column, (&a, bins)) in action.iter().zip(ACTION_BINS).enumerate() {
-            let a: i64 = a.into();
-            if !(0..bins).contains(&a) {
-                let what = format!("expected 0 to {}, got {a}", bins - 1);
-                return Some((row * ACTION_SIZE + column, what));
-            }
+    /// A stretch of rows long enough to be checked by whole registers.
+    const STRETCH: usize = 16 * ACTION_SIZE;
+    let bins: [i64; STRETCH] = core::array::from_fn(|k| ACTION_BINS[k % ACTION_SIZE]);
+    let fits = |&(&action, &bins): &(&I, &i64)| (0..bins).contains(&action.into());
+    for (k, stretch) in actions.chunks(STRETCH).enumerate() {
+        // No early exit within a stretch, so that the compiler can look at many at a time.
+        let bad = stretch.iter().zip(&bins).map(|pair| u32::from(!fits(&pair))).sum::<u32>();
+        if bad > 0 {
+            let at = stretch.iter().zip(&bins).position(|pair| !fits(&pair))?;
+            let what = format!("expected 0 to {}, got {}", bins[at] - 1, stretch[at].into());
+            return Some((k * STRETCH + at, what));
         }
     }
     None

@@ -5,7 +5,7 @@ use super::episode::{Begun, Episodes, Phase};
 use super::step::Piece;
 use super::*;
 use crate::real::Work;
-use crate::terrain::Maps;
+use crate::terrain::{Maps, Surface};
 
 /// The environments of some lanes, side by side.
 #[derive(Clone, Copy)]
@@ -40,6 +40,7 @@ impl<S: Scene, R: Real> Block<S, R> {
 /// A decision of a piece of the batch, compiled for the instruction set of its lanes.
 pub(super) struct Step<'a, S: Scene, M: Movement, R: Real> {
     pub(super) batch: &'a Batch<S, M, R>,
+    pub(super) surface: Surface<'a, R::Scalar>,
     pub(super) piece: Piece<'a, S, R>,
     pub(super) actions: Actions<'a>,
 }
@@ -49,7 +50,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { batch, mut piece, actions } = self;
+        let Self { batch, surface, mut piece, actions } = self;
         let row = batch.row;
         let turn_rate = <R::Scalar as Scalar>::from_f64(batch.setup.task.turn_rate);
         for (k, block) in piece.blocks.iter_mut().enumerate() {
@@ -59,15 +60,15 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
             let players = R::LANES.min(batch.setup.count - first);
             let input = actions.input::<R>(first, players, turn_rate);
             piece.report.charge(0);
-            let decision = batch.decide(block, &input);
+            let decision = batch.decide(block, &input, &surface);
             piece.report.charge(1);
-            let rewards = batch.settle(block, &decision);
+            let rewards = batch.settle(block, &decision, &surface);
             if batch.setup.autoreset == Autoreset::NextStep && decision.played.not().any() {
                 batch.go_on_where_over(block, &decision, players);
             }
             piece.report.charge(2);
             let rows = &mut piece.output.observations[at * row..(at + players) * row];
-            batch.observe_block(block, rows, players);
+            batch.observe_block(block, &surface, rows, players);
             piece.report.charge(3);
             piece.output.rewards.write(at, &rewards.as_ref()[..players]);
             for (lane, &phase) in block.episodes.phase.as_ref()[..players].iter().enumerate() {
@@ -80,7 +81,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
             }
             piece.report.charge(2);
             if let Some(status) = &mut piece.output.status {
-                batch.write_status(block, at, players, status);
+                batch.write_status(block, &surface, (at, players), status);
             }
             piece.report.charge(4);
         }
@@ -90,6 +91,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
 /// The observations of some blocks, compiled for the instruction set of their lanes.
 pub(super) struct Observe<'a, S: Scene, M: Movement, R: Real> {
     pub(super) batch: &'a Batch<S, M, R>,
+    pub(super) surface: Surface<'a, R::Scalar>,
     pub(super) blocks: &'a [Block<S, R>],
     pub(super) rows: &'a mut [f32],
 }
@@ -101,7 +103,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Observe<'_, S, M, R> {
     fn run(self) {
         let row = self.batch.row;
         for (block, rows) in self.blocks.iter().zip(self.rows.chunks_mut(row * R::LANES)) {
-            self.batch.observe_block(block, rows, rows.len() / row);
+            self.batch.observe_block(block, &self.surface, rows, rows.len() / row);
         }
     }
 }

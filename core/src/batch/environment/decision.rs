@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::episode::Phase;
 use super::*;
+use crate::terrain::Surface;
 
 /// How a decision went: who played it at all, for how many ticks, and how it ended.
 pub(super) struct Decision<R: Real> {
@@ -24,8 +25,12 @@ impl<R: Real> Decision<R> {
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     /// Plays the ticks. A player whose episode ends freezes for the rest of them.
     #[inline(always)]
-    pub(super) fn decide(&self, block: &mut Block<S, R>, input: &Input<R>) -> Decision<R> {
-        let surface = self.setup.maps.surface::<R::Scalar>();
+    pub(super) fn decide(
+        &self,
+        block: &mut Block<S, R>,
+        input: &Input<R>,
+        surface: &Surface<'_, R::Scalar>,
+    ) -> Decision<R> {
         let none = R::Mask::splat(false);
         let played = block.episodes.are(Phase::Running);
         let mut active = played;
@@ -36,9 +41,9 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
                 break;
             }
             let before = block.player;
-            let mut after = crate::tick::tick::<S, M, R, _>(&before, input, &surface, &self.rules);
+            let mut after = crate::tick::tick::<S, M, R, _>(&before, input, surface, &self.rules);
             let mut run = block.run;
-            let verdict = run.judge(&before, &after, &self.setup.task, self.rules.max_damage, &surface);
+            let verdict = run.judge(&before, &after, &self.setup.task, self.rules.max_damage, surface);
             (after.position.x, after.position.y, after.tile_x, after.tile_y) =
                 surface.wrap::<R>(after.position.x, after.position.y, after.tile_x, after.tile_y);
             block.player = Player::select(active, &after, &before);
@@ -55,13 +60,17 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 
     /// Rewards of those who played, 0 for the others; their books and phases.
     #[inline(always)]
-    pub(super) fn settle(&self, block: &mut Block<S, R>, decision: &Decision<R>) -> R::Each<f64> {
-        let surface = self.setup.maps.surface::<R::Scalar>();
+    pub(super) fn settle(
+        &self,
+        block: &mut Block<S, R>,
+        decision: &Decision<R>,
+        surface: &Surface<'_, R::Scalar>,
+    ) -> R::Each<f64> {
         let weights = &self.setup.task.reward;
         let tick_ms = f64::from(self.rules.tick_ms);
         let (zero, one) = (R::Int::splat(0), R::Int::splat(1));
         // As arrays, so that the compiler can work on several lanes' f64 at a time.
-        let distances = block.run.distance(&block.player, &surface).unpack();
+        let distances = block.run.distance(&block.player, surface).unpack();
         let ticks = R::unpack_int(decision.ticks);
         let arrived = R::unpack_int(R::Int::select(decision.arrived, one, zero));
         let played = R::unpack_int(R::Int::select(decision.played, one, zero));

@@ -4,6 +4,7 @@ use super::block::Block;
 use super::decision::Decision;
 use super::episode;
 use super::*;
+use crate::terrain::Surface;
 
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     /// Begins the next episode of an environment.
@@ -43,7 +44,8 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             if self.setup.autoreset == Autoreset::SameStep {
                 self.go_on(block, lane);
                 let (player, run) = (block.player.lane(lane), block.run.lane(lane));
-                self.observe::<R::Scalar>(&player, &run, block.lowest.lane(lane), row, 1);
+                let surface = self.setup.maps.surface();
+                self.observe::<R::Scalar>(&player, &run, &surface, block.lowest.lane(lane), row, 1);
             }
         }
     }
@@ -91,13 +93,13 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     pub(super) fn write_status(
         &self,
         block: &Block<S, R>,
-        at: usize,
-        players: usize,
+        surface: &Surface<'_, R::Scalar>,
+        (at, players): (usize, usize),
         status: &mut StatusOutput<'_>,
     ) {
         let (p, run) = (&block.player, &block.run);
         let maps = &self.setup.maps;
-        let distances = run.distance(p, &maps.surface::<R::Scalar>()).unpack();
+        let distances = run.distance(p, surface).unpack();
         let speeds = p.velocity.length().unpack();
         let (x, y) = (p.position.x.unpack(), p.position.y.unpack());
         let (tile_x, tile_y, ticks) =

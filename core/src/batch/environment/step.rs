@@ -2,6 +2,7 @@
 
 use super::block::{Observe, Step};
 use super::*;
+use crate::terrain::Surface;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// The episodes of a piece that ended, in order, with their last observations.
@@ -140,8 +141,14 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 
     /// The observations of a block's first players.
     #[inline(always)]
-    pub(super) fn observe_block(&self, block: &Block<S, R>, rows: &mut [f32], players: usize) {
-        self.observe::<R>(&block.player, &block.run, block.lowest, rows, players);
+    pub(super) fn observe_block(
+        &self,
+        block: &Block<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        rows: &mut [f32],
+        players: usize,
+    ) {
+        self.observe::<R>(&block.player, &block.run, surface, block.lowest, rows, players);
     }
 
     /// The observations of the players of some lanes.
@@ -150,20 +157,21 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         &self,
         player: &Player<S, L>,
         run: &Run<L>,
+        surface: &Surface<'_, R::Scalar>,
         lowest: L,
         rows: &mut [f32],
         players: usize,
     ) {
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        self.setup.observation.write(player, run, &surface, &self.rules, lowest, rows, players);
+        self.setup.observation.write(player, run, surface, &self.rules, lowest, rows, players);
     }
 
     pub(super) fn observe_all(&self, crew: Crew, observations: &mut [f32]) {
         let (blocks, rows) = (Self::PIECE / R::LANES, Self::PIECE * self.row);
+        let surface = self.setup.maps.surface();
         let pieces = self.blocks.chunks(blocks).zip(observations.chunks_mut(rows));
         crew.share(pieces, |(blocks, rows)| {
             let _floats = DefaultFloats::enter();
-            R::enter(Observe { batch: self, blocks, rows });
+            R::enter(Observe { batch: self, surface, blocks, rows });
         });
     }
 
@@ -179,6 +187,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let mut reports = core::mem::take(&mut self.reports);
         reports.resize_with(count.div_ceil(Self::PIECE), || Report::new(false));
         let this = &*self;
+        let surface = this.setup.maps.surface();
         let pieces = blocks.chunks_mut(Self::PIECE / R::LANES).zip(&mut reports).enumerate();
         let pieces = pieces.map(move |(k, (blocks, report))| {
             let first = k * Self::PIECE;
@@ -189,7 +198,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             crew.share(pieces, |piece| {
                 let _floats = DefaultFloats::enter();
                 piece.report.restart();
-                R::enter(Step { batch: this, piece, actions });
+                R::enter(Step { batch: this, surface, piece, actions });
             });
         }));
         self.blocks = blocks;

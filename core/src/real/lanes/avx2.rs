@@ -1,6 +1,6 @@
 //! 8 lanes: AVX2.
 
-use super::{check_rows, lane_access, load_pairs, operators, out_of_range, transpose, wrap_lanes};
+use super::{check_rows, lane_access, load_square, operators, out_of_range, transpose, wrap_slowly};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
@@ -84,7 +84,10 @@ impl Int for I32x8 {
         if n & (n - 1) == 0 {
             return Self(unsafe { _mm256_and_si256(self.0, _mm256_set1_epi32(n - 1)) });
         }
-        Self(wrap_lanes!(self.0, 8, __m256i, n))
+        // A register is as large as the array of its lanes, and both are plain bits.
+        let mut lanes = unsafe { core::mem::transmute::<__m256i, [i32; 8]>(self.0) };
+        wrap_slowly(&mut lanes, n);
+        Self(unsafe { core::mem::transmute::<[i32; 8], __m256i>(lanes) })
     }
     #[inline(always)]
     fn is_odd(self) -> Mask8 {
@@ -216,7 +219,7 @@ impl Real for F32x8 {
         }
     }
     #[inline(always)]
-    fn gather_pair(table: &[f32], index: I32x8) -> (Self, Self) {
+    fn gather_square(table: &[[f32; 2]], index: I32x8) -> [Self; 4] {
         let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
         unsafe {
             // Unsigned, so that a negative index is a large one.
@@ -224,8 +227,22 @@ impl Real for F32x8 {
             if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
                 out_of_range(table.len());
             }
-            let (first, second) = load_pairs(table, &core::mem::transmute::<__m256i, [i32; 8]>(index.0));
-            (Self(first), Self(second))
+            // Two indices to a word: half as many moves out of the register.
+            let [i0, i2, i4, i6] = core::mem::transmute::<__m256i, [u64; 4]>(index.0);
+            let a = _mm256_set_m128(load_square(table, i4), load_square(table, i0));
+            let b = _mm256_set_m128(load_square(table, i4 >> 32), load_square(table, i0 >> 32));
+            let c = _mm256_set_m128(load_square(table, i6), load_square(table, i2));
+            let d = _mm256_set_m128(load_square(table, i6 >> 32), load_square(table, i2 >> 32));
+            let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+            let (ef, gh) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+            let (ab, cd) = (_mm256_castps_pd(ab), _mm256_castps_pd(cd));
+            let (ef, gh) = (_mm256_castps_pd(ef), _mm256_castps_pd(gh));
+            [
+                Self(_mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd))),
+                Self(_mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd))),
+                Self(_mm256_castpd_ps(_mm256_unpacklo_pd(ef, gh))),
+                Self(_mm256_castpd_ps(_mm256_unpackhi_pd(ef, gh))),
+            ]
         }
     }
 }
