@@ -6,16 +6,24 @@ mod engine;
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
 use crate::player::Player;
-use crate::real::Real;
+use crate::real::{Mask, Real};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
 
 /// Largest view pitch, radians (88 degrees).
 pub const MAX_PITCH: f64 = 1.535_889_741_755_009_3;
 
+/// An angle, radians, that is less than pi also after rounding of a sum.
+const WELL_INSIDE: f64 = 3.14;
+
 /// An angle in radians brought into [-pi, pi).
 #[inline(always)]
 pub fn wrap_angle<R: Real>(angle: R) -> R {
+    // Whoever is inside stays as he is, to the bit, and mostly everybody is: nothing waits for a division.
+    let inside = angle.abs().le(R::lit(WELL_INSIDE));
+    if !inside.not().any() {
+        return angle;
+    }
     let pi = R::lit(core::f64::consts::PI);
     let turn = R::lit(2.0 * core::f64::consts::PI);
     let turns = ((angle + pi) / turn).floor_int();
