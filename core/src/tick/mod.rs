@@ -6,7 +6,7 @@ mod engine;
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
 use crate::player::Player;
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, V3};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
 
@@ -66,8 +66,34 @@ pub fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     world: &W,
     rules: &Rules<R::Scalar>,
 ) {
+    let before = push::<S, M, R>(p, input, rules);
+    go::<S, M, R, W>(p, before, world, rules);
+}
+
+/// The first half of [`act`]: jump, jets and friction. Returns the velocity after the jump and before the
+/// tick's forces. It has no branches on numbers, so that a processor does the next players' beside it.
+#[inline(always)]
+pub fn push<S: Scene, M: Movement, R: Real>(
+    p: &mut Player<S, R>,
+    input: &Input<R>,
+    rules: &Rules<R::Scalar>,
+) -> V3<R> {
     match M::MODEL {
-        Model::Article => article::act::<S, M, R, W>(p, input, world, rules),
-        Model::Engine => engine::act::<S, M, R, W>(p, input, world, rules),
+        Model::Article => article::push(p, input, rules),
+        Model::Engine => engine::push(p, input, rules),
+    }
+}
+
+/// The second half of [`act`]: the move.
+#[inline(always)]
+pub fn go<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
+    p: &mut Player<S, R>,
+    before: V3<R>,
+    world: &W,
+    rules: &Rules<R::Scalar>,
+) {
+    M::advance(p, before, world, rules);
+    if M::MODEL == Model::Engine {
+        engine::age(p);
     }
 }
