@@ -43,7 +43,7 @@ impl<S: Scene, R: Real> Body<S, R> {
 }
 
 /// Blocks that are ticked side by side: as many as a processor's window holds instructions of, and more.
-pub(super) const TOGETHER: usize = 4;
+pub(super) const TOGETHER: usize = 8;
 
 /// How far along the contact normal the rays start that a blast sees by, m.
 const LIFTED: f64 = 0.05;

@@ -230,7 +230,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         if inputs.len() != self.count {
             refuse!("inputs: expected {} rows, got {}", self.count, inputs.len());
         }
-        inputs.iter().enumerate().try_for_each(|(i, input)| input.check(i))?;
+        RawInput::check_all(inputs)?;
         let pool =
             if self.threads == 1 || self.count < INLINE_BELOW { None } else { Some(pool(self.threads)?) };
         let (per_world, chunk) = (self.per_world, self.chunk());
