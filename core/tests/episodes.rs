@@ -5,8 +5,8 @@
 mod common;
 
 use common::envs::{Envs, ski};
-use discjump_core::batch::{Autoreset, ResetRequest, SkiEnvironments};
-use discjump_core::task::{CourseRequest, Outcome};
+use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StatusOutput, StepOutput};
+use discjump_core::task::{Actions, CourseRequest, Outcome};
 use glam::DVec2;
 
 const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
@@ -211,4 +211,42 @@ fn the_three_autoreset_modes_play_the_same_episodes() {
             }
         }
     }
+}
+
+/// Also across ends and new beginnings within the step: the columns show what runs after it.
+#[test]
+fn columns_of_a_step_say_what_the_batch_says_after_it() {
+    let [mut twin, mut envs] = [(), ()].map(|()| {
+        let mut setup = ski(5, "authentic");
+        setup.task.time_limit = 30;
+        Envs::seeded(setup, &[1, 2, 3, 4, 5])
+    });
+    let (mut narrow, [mut distance, mut speed, mut time]) = ([0.0f32; 5], [[0.0; 5]; 3]);
+    let (mut outside, mut ends) = ([false; 5], 0);
+    for _ in 0..100 {
+        let actions = twin.actions();
+        twin.step(&actions);
+        let output = StepOutput {
+            observations: &mut envs.observations,
+            rewards: Rewards::F32(&mut narrow),
+            terminated: &mut envs.terminated,
+            truncated: &mut envs.truncated,
+            status: Some(StatusOutput {
+                distance: &mut distance,
+                speed: &mut speed,
+                time: &mut time,
+                outside: &mut outside,
+            }),
+        };
+        envs.batch.step(Actions::Int8(&actions), output).unwrap();
+        ends += envs.batch.finished().len();
+        let rounded: Vec<u32> = twin.rewards.iter().map(|&reward| (reward as f32).to_bits()).collect();
+        assert_eq!(narrow.map(f32::to_bits).to_vec(), rounded);
+        for (i, status) in twin.batch.status().iter().enumerate() {
+            let columns = [distance[i], speed[i], time[i]].map(f64::to_bits);
+            assert_eq!(columns, [status.distance, status.speed, status.time].map(f64::to_bits));
+            assert_eq!(outside[i], status.outside);
+        }
+    }
+    assert!(ends > 10, "{ends} ends");
 }

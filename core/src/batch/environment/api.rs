@@ -33,11 +33,52 @@ pub struct StepOutput<'a> {
     /// Observations, row by row.
     pub observations: &'a mut [f32],
     /// Rewards.
-    pub rewards: &'a mut [f64],
+    pub rewards: Rewards<'a>,
     /// Whether the episode ended by arrival or death.
     pub terminated: &'a mut [bool],
     /// Whether the episode ended by the clock.
     pub truncated: &'a mut [bool],
+    /// What [`Environments::status`] would give after the step, where it is asked for.
+    pub status: Option<StatusOutput<'a>>,
+}
+
+/// Where rewards go.
+#[derive(Debug)]
+pub enum Rewards<'a> {
+    /// As they are.
+    F64(&'a mut [f64]),
+    /// Rounded.
+    F32(&'a mut [f32]),
+}
+
+impl Rewards<'_> {
+    /// How many there is room for.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::F64(rewards) => rewards.len(),
+            Self::F32(rewards) => rewards.len(),
+        }
+    }
+
+    /// Whether there is room for none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The columns of a [`Status`] that change with every step: one entry per environment.
+#[derive(Debug)]
+pub struct StatusOutput<'a> {
+    /// Horizontal distance to the beacon, m.
+    pub distance: &'a mut [f64],
+    /// Speed, m/s.
+    pub speed: &'a mut [f64],
+    /// Seconds played.
+    pub time: &'a mut [f64],
+    /// Whether the player is outside the mission area.
+    pub outside: &'a mut [bool],
 }
 
 /// What is reported of an environment at any time.
@@ -62,6 +103,8 @@ pub trait Environments: Send + Sync {
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
+    /// Players stepped side by side.
+    fn lanes(&self) -> usize;
     /// Numbers in an observation.
     fn observation_size(&self) -> usize;
     /// The layout of an observation.

@@ -22,7 +22,7 @@ mod episode;
 mod setup;
 mod step;
 
-pub use api::{Autoreset, Environments, ResetRequest, Status, StepOutput};
+pub use api::{Autoreset, Environments, ResetRequest, Rewards, Status, StatusOutput, StepOutput};
 use episode::{Begun, Episode, Phase};
 pub use setup::SkiEnvironments;
 
@@ -54,6 +54,7 @@ struct Batch<S: Scene, M: Movement, R: Real> {
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     fn boxed(setup: SkiEnvironments) -> Result<Box<dyn Environments>, InputError> {
         let threads = resolve_threads(setup.threads)?;
+        crate::real::lanes::lane_width(setup.lanes, setup.count)?;
         let armor = find_armor(&setup.armor)?;
         let rules = Rules::new(M::MODEL, armor, setup.energy_pack, setup.tick_ms, setup.physics);
         let row = setup.observation.size::<S>();
@@ -100,7 +101,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.threads == 1 || self.setup.count < INLINE_BELOW
     }
 
-    fn lanes(&self) -> impl Iterator<Item = (Player<S, R::Scalar>, Run<R::Scalar>, &Episode)> {
+    fn each(&self) -> impl Iterator<Item = (Player<S, R::Scalar>, Run<R::Scalar>, &Episode)> {
         let lanes = self
             .blocks
             .iter()
@@ -122,7 +123,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 
     fn bytes(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        for (player, run, episode) in self.lanes() {
+        for (player, run, episode) in self.each() {
             write_player(&player, true, &mut out);
             episode::write(&run, episode, &mut out);
         }
@@ -137,6 +138,10 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     fn len(&self) -> usize {
         self.setup.count
+    }
+
+    fn lanes(&self) -> usize {
+        R::LANES
     }
 
     fn observation_size(&self) -> usize {
@@ -196,11 +201,11 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     }
 
     fn status(&self) -> Vec<Status> {
-        self.lanes().map(|(p, run, episode)| self.status_of(&p, &run, episode)).collect()
+        self.each().map(|(p, run, episode)| self.status_of(&p, &run, episode)).collect()
     }
 
     fn goals(&self) -> Vec<[f64; 3]> {
-        self.lanes()
+        self.each()
             .map(|(_, run, _)| {
                 let goal = DVec3::new(run.goal.x.to_f64(), run.goal.y.to_f64(), run.goal.z.to_f64());
                 let tile = IVec2::from(run.goal_tile);
@@ -215,7 +220,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn state(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        self.lanes().for_each(|(p, _, _)| write_state(&self.setup.maps, &p, &mut out));
+        self.each().for_each(|(p, _, _)| write_state(&self.setup.maps, &p, &mut out));
         out
     }
 

@@ -42,6 +42,8 @@ pub struct SkiEnvironments {
     pub autoreset: Autoreset,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
+    /// Players stepped side by side, as in [`crate::batch::SimulatorSetup`].
+    pub lanes: Option<usize>,
 }
 
 impl SkiEnvironments {

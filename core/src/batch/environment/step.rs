@@ -66,7 +66,11 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let n = self.setup.count;
         actions.check(self.setup.actions, n)?;
         let sizes = [output.rewards.len(), output.terminated.len(), output.truncated.len()];
-        if output.observations.len() != n * self.row || sizes != [n; 3] {
+        let columns = output
+            .status
+            .as_ref()
+            .map_or([n; 4], |s| [s.distance.len(), s.speed.len(), s.time.len(), s.outside.len()]);
+        if output.observations.len() != n * self.row || sizes != [n; 3] || columns != [n; 4] {
             refuse!("output: expected {n} rows of {} and {n} of the rest", self.row);
         }
         let mut episodes = self.blocks.iter().flat_map(|b| b.episodes.as_ref()).take(n);
@@ -77,7 +81,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     pub(super) fn observe_all(&self, observations: &mut [f32]) {
-        for ((player, run, episode), row) in self.lanes().zip(observations.chunks_exact_mut(self.row)) {
+        for ((player, run, episode), row) in self.each().zip(observations.chunks_exact_mut(self.row)) {
             self.observe(&player, &run, episode, row);
         }
     }
@@ -93,6 +97,15 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         actions: Actions<'_>,
         output: StepOutput<'_>,
     ) -> Result<(), InputError> {
+        let StepOutput { observations, rewards, terminated, truncated, status } = output;
+        let mut wide = Vec::new();
+        let (narrow, rewards) = match rewards {
+            Rewards::F64(rewards) => (None, rewards),
+            Rewards::F32(narrow) => {
+                wide.resize(narrow.len(), 0.0);
+                (Some(narrow), &mut wide[..])
+            }
+        };
         let inline = self.inline();
         let pool = if inline { None } else { Some(pool(self.threads)?) };
         // The blocks leave the batch for the step, so that the rest of it can be read from every thread.
@@ -102,18 +115,23 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let this = &*self;
         let stepped = catch_unwind(AssertUnwindSafe(|| match pool {
             None => {
-                let StepOutput { observations, rewards, terminated, truncated } = output;
-                let piece =
-                    Piece { blocks: &mut blocks, observations, rewards, terminated, truncated, first: 0 };
+                let piece = Piece {
+                    blocks: &mut blocks,
+                    observations,
+                    rewards: &mut *rewards,
+                    terminated,
+                    truncated,
+                    first: 0,
+                };
                 vec![this.step_piece(piece, actions)]
             }
             Some(pool) => pool.install(|| {
                 blocks
                     .par_chunks_mut(per_task)
-                    .zip(output.observations.par_chunks_mut(rows * this.row))
-                    .zip(output.rewards.par_chunks_mut(rows))
-                    .zip(output.terminated.par_chunks_mut(rows))
-                    .zip(output.truncated.par_chunks_mut(rows))
+                    .zip(observations.par_chunks_mut(rows * this.row))
+                    .zip(rewards.par_chunks_mut(rows))
+                    .zip(terminated.par_chunks_mut(rows))
+                    .zip(truncated.par_chunks_mut(rows))
                     .enumerate()
                     .map(|(k, ((((blocks, observations), rewards), terminated), truncated))| {
                         let first = k * rows;
@@ -135,6 +153,16 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         for piece in ended {
             self.finished.extend(piece.outcomes);
             self.final_observations.extend(piece.observations);
+        }
+        if let Some(narrow) = narrow {
+            narrow.iter_mut().zip(wide).for_each(|(out, reward)| *out = reward as f32);
+        }
+        if let Some(out) = status {
+            for (i, (player, run, episode)) in self.each().enumerate() {
+                let status = self.status_of(&player, &run, episode);
+                (out.distance[i], out.speed[i]) = (status.distance, status.speed);
+                (out.time[i], out.outside[i]) = (status.time, status.outside);
+            }
         }
         Ok(())
     }
