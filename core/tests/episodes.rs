@@ -4,8 +4,10 @@
 
 mod common;
 
-use common::envs::{Envs, ski};
-use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StatusOutput, StepOutput};
+use common::envs::{Envs, bits, ski};
+use discjump_core::batch::{
+    Autoreset, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
+};
 use discjump_core::task::{Actions, CourseRequest, Outcome};
 use glam::DVec2;
 
@@ -249,4 +251,24 @@ fn columns_of_a_step_say_what_the_batch_says_after_it() {
         }
     }
     assert!(ends > 10, "{ends} ends");
+}
+
+#[test]
+fn a_reset_of_some_leaves_observed_rows_alone() {
+    let [mut envs, mut twin] = [(), ()].map(|()| Envs::seeded(ski(4, "authentic"), &[1, 2, 3, 4]));
+    (0..20).for_each(|_| envs.play());
+    (0..20).for_each(|_| twin.play());
+    let mask = vec![false, true, false, true];
+    let request = ResetRequest { mask, others_observed: true, ..ResetRequest::default() };
+    let row = envs.batch.observation_size();
+    envs.observations[..row].fill(7.0);
+    envs.batch.reset(&request, &mut envs.observations).unwrap();
+    let all = ResetRequest { others_observed: false, ..request };
+    twin.batch.reset(&all, &mut twin.observations).unwrap();
+    assert_eq!(envs.observations[..row], vec![7.0; row]);
+    for env in 1..4 {
+        assert_eq!(bits(envs.row(env)), bits(twin.row(env)), "environment {env}");
+    }
+    let one_by_one: Vec<Status> = (0..4).map(|env| envs.batch.status_of(env)).collect();
+    assert_eq!(one_by_one, twin.batch.status());
 }

@@ -182,8 +182,12 @@ impl SkiBatch {
         if seeds.as_ref().is_some_and(|s| s.len() != n) || mask.as_ref().is_some_and(|m| m.len() != n) {
             return Err(PyValueError::new_err(format!("seeds, mask: expected {n}, one per environment")));
         }
-        let request =
-            ResetRequest { seeds: seeds.unwrap_or_default(), mask: mask.unwrap_or_default(), courses };
+        let request = ResetRequest {
+            seeds: seeds.unwrap_or_default(),
+            mask: mask.unwrap_or_default(),
+            courses,
+            ..ResetRequest::default()
+        };
         let array = self.observations.take(py);
         {
             let mut out = array.readwrite();

@@ -109,7 +109,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         lanes.take(self.setup.count)
     }
 
-    fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode) -> Status {
+    fn report(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode) -> Status {
         let surface = self.setup.maps.surface::<R::Scalar>();
         let map = episode.map as usize;
         Status {
@@ -178,12 +178,19 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
                 .map_err(|e| InputError(format!("environment {i}: {e}")))?;
             begun.push((i, next));
         }
-        for (i, next) in begun {
-            self.blocks[i / R::LANES].put(i % R::LANES, &next);
+        for (i, next) in &begun {
+            self.blocks[i / R::LANES].put(i % R::LANES, next);
         }
         self.finished.clear();
         self.final_observations.clear();
-        self.observe_all(observations);
+        if request.others_observed {
+            for (i, next) in &begun {
+                let row = &mut observations[i * self.row..(i + 1) * self.row];
+                self.observe(&next.player, &next.run, &next.episode, row);
+            }
+        } else {
+            self.observe_all(observations);
+        }
         Ok(())
     }
 
@@ -201,7 +208,13 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     }
 
     fn status(&self) -> Vec<Status> {
-        self.each().map(|(p, run, episode)| self.status_of(&p, &run, episode)).collect()
+        self.each().map(|(p, run, episode)| self.report(&p, &run, episode)).collect()
+    }
+
+    fn status_of(&self, index: usize) -> Status {
+        assert!(index < self.setup.count, "no environment {index}");
+        let (block, lane) = (&self.blocks[index / R::LANES], index % R::LANES);
+        self.report(&block.player.lane(lane), &block.run.lane(lane), &block.episodes.as_ref()[lane])
     }
 
     fn goals(&self) -> Vec<[f64; 3]> {

@@ -86,7 +86,13 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         }
     }
 
-    fn observe(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode, row: &mut [f32]) {
+    pub(super) fn observe(
+        &self,
+        p: &Player<S, R::Scalar>,
+        run: &Run<R::Scalar>,
+        episode: &Episode,
+        row: &mut [f32],
+    ) {
         let surface = self.setup.maps.surface::<R::Scalar>();
         let lowest = <R::Scalar as Scalar>::from_f64(self.setup.maps.range(episode.map as usize).0);
         self.setup.observation.write(p, run, &surface, &self.rules, lowest, row);
@@ -159,7 +165,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         }
         if let Some(out) = status {
             for (i, (player, run, episode)) in self.each().enumerate() {
-                let status = self.status_of(&player, &run, episode);
+                let status = self.report(&player, &run, episode);
                 (out.distance[i], out.speed[i]) = (status.distance, status.speed);
                 (out.time[i], out.outside[i]) = (status.time, status.outside);
             }
@@ -292,7 +298,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         e: &Episode,
         decision: Decision,
     ) -> Outcome {
-        let Status { distance, speed, time, outside, .. } = self.status_of(p, run, e);
+        let Status { distance, speed, time, outside, .. } = self.report(p, run, e);
         let path = run.path.to_f64();
         Outcome {
             success: decision.arrived,
