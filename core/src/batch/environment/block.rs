@@ -70,40 +70,40 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
             let players = |k: usize| R::LANES.min(count - piece.first - at(k));
 
             let mut inputs = [Input::<R>::idle(); TOGETHER];
-            for k in 0..blocks.len() {
-                inputs[k] = actions.input::<R>(piece.first + at(k), players(k), turn_rate);
+            for (k, input) in inputs.iter_mut().enumerate().take(blocks.len()) {
+                *input = actions.input::<R>(piece.first + at(k), players(k), turn_rate);
             }
             piece.report.charge(0);
             let mut decisions = [Decision::<R>::none(); TOGETHER];
             batch.decide(blocks, &inputs, &surface, &mut decisions);
             piece.report.charge(1);
-            for k in 0..blocks.len() {
-                let rewards = batch.settle(&mut blocks[k], &decisions[k], &surface);
+            for (k, block) in blocks.iter_mut().enumerate() {
+                let rewards = batch.settle(block, &decisions[k], &surface);
                 piece.output.rewards.write(at(k), &rewards.as_ref()[..players(k)]);
                 if batch.setup.autoreset == Autoreset::NextStep && decisions[k].played.not().any() {
-                    batch.go_on_where_over(&mut blocks[k], &decisions[k], players(k));
+                    batch.go_on_where_over(block, &decisions[k], players(k));
                 }
             }
             piece.report.charge(2);
-            for k in 0..blocks.len() {
+            for (k, block) in blocks.iter().enumerate() {
                 let rows = &mut piece.output.observations[at(k) * row..(at(k) + players(k)) * row];
-                batch.observe_block(&blocks[k], &surface, rows, players(k));
+                batch.observe_block(block, &surface, rows, players(k));
             }
             piece.report.charge(3);
-            for k in 0..blocks.len() {
-                piece.output.write_flags(at(k), &blocks[k].episodes.phase.as_ref()[..players(k)]);
+            for (k, block) in blocks.iter().enumerate() {
+                piece.output.write_flags(at(k), &block.episodes.phase.as_ref()[..players(k)]);
             }
             piece.report.charge(4);
-            for k in 0..blocks.len() {
+            for (k, block) in blocks.iter_mut().enumerate() {
                 if decisions[k].over().any() {
                     let rows = &mut piece.output.observations[at(k) * row..(at(k) + players(k)) * row];
-                    batch.report_ends(&mut blocks[k], piece.first + at(k), &decisions[k], rows, piece.report);
+                    batch.report_ends(block, piece.first + at(k), &decisions[k], rows, piece.report);
                 }
             }
             piece.report.charge(2);
             if let Some(status) = &mut piece.output.status {
-                for k in 0..blocks.len() {
-                    batch.write_status(&blocks[k], &surface, (at(k), players(k)), status);
+                for (k, block) in blocks.iter().enumerate() {
+                    batch.write_status(block, &surface, (at(k), players(k)), status);
                 }
             }
             piece.report.charge(4);

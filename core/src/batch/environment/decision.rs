@@ -42,23 +42,23 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         decisions: &mut [Decision<R>; TOGETHER],
     ) {
         let mut active = [R::Mask::splat(false); TOGETHER];
-        for k in 0..blocks.len() {
-            active[k] = blocks[k].episodes.are(Phase::Running);
+        for (k, block) in blocks.iter().enumerate() {
+            active[k] = block.episodes.are(Phase::Running);
             decisions[k].played = active[k];
         }
         let mut after = [blocks[0].player; TOGETHER];
         let mut velocity = [V3::zero(); TOGETHER];
         for _ in 0..self.setup.task.frame_skip {
-            for k in 0..blocks.len() {
-                after[k] = blocks[k].player;
+            for (k, block) in blocks.iter().enumerate() {
+                after[k] = block.player;
                 look(&mut after[k], &inputs[k], &self.rules);
                 velocity[k] = push::<S, M, R>(&mut after[k], &inputs[k], &self.rules);
             }
-            for k in 0..blocks.len() {
+            for (k, block) in blocks.iter_mut().enumerate() {
                 if !active[k].any() {
                     continue;
                 }
-                let Block { player: before, run: running, .. } = &mut blocks[k];
+                let Block { player: before, run: running, .. } = block;
                 let (after, decision, active) = (&mut after[k], &mut decisions[k], &mut active[k]);
                 go::<S, M, R, _>(after, velocity[k], surface, &self.rules);
                 let mut run = *running;
