@@ -9,12 +9,13 @@ pub(super) use setup::{check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;
 
+use super::alone::TOGETHER;
 use super::codec::{body_fields, read_body, write_body};
 use super::neighbourhood::Stand;
 use super::pool::{INLINE_BELOW, pool};
 use super::raw_input::RawInput;
 use super::snapshot;
-use super::stage::{Body, Stage, TOGETHER};
+use super::stage::{Body, Stage};
 use crate::arms::Arsenal;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;

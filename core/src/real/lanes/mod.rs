@@ -83,6 +83,15 @@ macro_rules! lane_access {
             // SAFETY: as above.
             self.0 = unsafe { core::mem::transmute::<[$scalar; $count], $register>(lanes) };
         }
+        #[inline(always)]
+        fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+            // SAFETY: as above.
+            let (to, from) = unsafe {
+                let to = core::ptr::from_mut(self).cast::<[$scalar; $count]>();
+                (&mut *to, &*core::ptr::from_ref(from).cast::<[$scalar; $count]>())
+            };
+            to[lane] = from[there];
+        }
     };
 }
 use lane_access;

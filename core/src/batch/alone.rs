@@ -1,0 +1,104 @@
+//! A tick of players who are alone in their worlds, several blocks of lanes at a time.
+//!
+//! A block's tick is long chains of instructions that wait for each other. Where no branch is guessed
+//! wrong the chains of several blocks overlap in the processor; so what has no branch on numbers is done
+//! for all blocks in a row, and those few players who need a closer look are gathered from all of them
+//! into full blocks.
+
+use super::stage::{Body, Stage};
+use crate::input::Input;
+use crate::movement::Movement;
+use crate::player::Player;
+use crate::real::{Int, Mask, Real, Scalar, V3};
+use crate::scene::Scene;
+use crate::tick::{go, push};
+
+/// Blocks that are ticked side by side: few enough to stay in the first cache.
+pub(super) const TOGETHER: usize = 8;
+
+/// The widest block.
+const MOST_LANES: usize = 32;
+
+impl<T: Scalar> Stage<'_, T> {
+    /// A tick of at most [`TOGETHER`] blocks.
+    #[inline(always)]
+    pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
+        &self,
+        bodies: &mut [Body<S, R>],
+        inputs: &[Input<R>],
+    ) {
+        // One player alone is done sooner with one look than with two.
+        let passes = M::PASSES && R::LANES > 1;
+        let mut velocity = [V3::zero(); TOGETHER];
+        let mut passed = [R::Mask::splat(false); TOGETHER];
+        // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
+        let mut near = [R::Mask::splat(false); TOGETHER];
+        let mut saved = [const { None }; TOGETHER];
+        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
+            self.aim(body, input);
+            if S::SOLIDS {
+                near[k] = self.near_solids(body);
+                if near[k].any() {
+                    saved[k] = Some(*body);
+                }
+            }
+            velocity[k] = push::<S, M, R>(&mut body.player, input, self.rules);
+            if passes {
+                passed[k] = M::pass(&mut body.player, &self.surface, self.rules);
+            }
+        }
+        if passes {
+            self.catch_up::<S, M, R>(bodies, &passed);
+        }
+        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
+            if R::LANES > 1 || saved[k].is_none() {
+                if !passes {
+                    go::<S, M, R, _>(&mut body.player, velocity[k], &self.surface, self.rules);
+                }
+                self.land(body, &self.surface);
+            }
+            if S::SOLIDS
+                && let Some(before) = &saved[k]
+            {
+                for lane in (0..R::LANES).filter(|&lane| near[k].lane(lane)) {
+                    let mut one = before.lane(lane);
+                    self.play_near::<S, M>(&mut one, &input.lane(lane));
+                    body.set_lane(lane, &one);
+                }
+            }
+        }
+    }
+
+    /// Moves those who have not passed, gathered into full blocks.
+    #[inline(always)]
+    fn catch_up<S: Scene, M: Movement, R: Real<Scalar = T>>(
+        &self,
+        bodies: &mut [Body<S, R>],
+        passed: &[R::Mask; TOGETHER],
+    ) {
+        let mut late = [(0u8, 0u8); TOGETHER * MOST_LANES];
+        let mut count = 0;
+        for (block, passed) in passed.iter().enumerate().take(bodies.len()) {
+            let mut bits = passed.not().bits();
+            while bits != 0 {
+                late[count] = (block as u8, bits.trailing_zeros() as u8);
+                bits &= bits - 1;
+                count += 1;
+            }
+        }
+        // Whoever stands still makes no move: so do the lanes that nobody fills.
+        let mut gathered = Player::<S, R>::new(self.rules, V3::zero(), R::Int::splat(0));
+        for late in late[..count].chunks(R::LANES) {
+            for (lane, &(block, there)) in late.iter().enumerate() {
+                gathered.copy_move(lane, &bodies[usize::from(block)].player, usize::from(there));
+            }
+            for lane in late.len()..R::LANES {
+                gathered.velocity.set_lane(lane, V3::zero());
+            }
+            M::advance(&mut gathered, V3::zero(), &self.surface, self.rules);
+            for (lane, &(block, there)) in late.iter().enumerate() {
+                bodies[usize::from(block)].player.copy_move(usize::from(there), &gathered, lane);
+            }
+        }
+    }
+}
