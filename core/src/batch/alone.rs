@@ -13,14 +13,20 @@ use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::scene::Scene;
 use crate::tick::{go, push};
 
-/// Blocks that are ticked side by side: few enough to stay in the first cache.
-pub(super) const TOGETHER: usize = 8;
+/// Players that are ticked side by side, where they have lanes: enough to fill the blocks that the late
+/// ones are gathered into, few enough to stay in the first cache.
+const PLAYERS: usize = 256;
 
-/// The widest block.
-const MOST_LANES: usize = 32;
+/// The most blocks that they are; single players are blocks of one.
+pub(super) const MOST_BLOCKS: usize = 32;
+
+/// Blocks that are ticked side by side.
+pub(super) const fn together<R: Real>() -> usize {
+    if R::LANES == 1 { 8 } else { PLAYERS / R::LANES }
+}
 
 impl<T: Scalar> Stage<'_, T> {
-    /// A tick of at most [`TOGETHER`] blocks.
+    /// A tick of at most [`together`] blocks.
     #[inline(always)]
     pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
         &self,
@@ -29,17 +35,17 @@ impl<T: Scalar> Stage<'_, T> {
     ) {
         // One player alone is done sooner with one look than with two.
         let passes = M::PASSES && R::LANES > 1;
-        let mut velocity = [V3::zero(); TOGETHER];
-        let mut passed = [R::Mask::splat(false); TOGETHER];
+        let mut velocity = [V3::zero(); MOST_BLOCKS];
+        let mut passed = [R::Mask::splat(false); MOST_BLOCKS];
         // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
-        let mut near = [R::Mask::splat(false); TOGETHER];
-        let mut saved = [const { None }; TOGETHER];
+        let mut near = [R::Mask::splat(false); MOST_BLOCKS];
+        let mut saved = Vec::new();
         for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
             self.aim(body, input);
             if S::SOLIDS {
                 near[k] = self.near_solids(body);
                 if near[k].any() {
-                    saved[k] = Some(*body);
+                    saved.push(*body);
                 }
             }
             velocity[k] = push::<S, M, R>(&mut body.player, input, self.rules);
@@ -50,16 +56,16 @@ impl<T: Scalar> Stage<'_, T> {
         if passes {
             self.catch_up::<S, M, R>(bodies, &passed);
         }
+        let mut saved = saved.into_iter();
         for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
-            if R::LANES > 1 || saved[k].is_none() {
+            let alone = S::SOLIDS && near[k].any();
+            if R::LANES > 1 || !alone {
                 if !passes {
                     go::<S, M, R, _>(&mut body.player, velocity[k], &self.surface, self.rules);
                 }
                 self.land(body, &self.surface);
             }
-            if S::SOLIDS
-                && let Some(before) = &saved[k]
-            {
+            if alone && let Some(before) = saved.next() {
                 for lane in (0..R::LANES).filter(|&lane| near[k].lane(lane)) {
                     let mut one = before.lane(lane);
                     self.play_near::<S, M>(&mut one, &input.lane(lane));
@@ -74,9 +80,9 @@ impl<T: Scalar> Stage<'_, T> {
     fn catch_up<S: Scene, M: Movement, R: Real<Scalar = T>>(
         &self,
         bodies: &mut [Body<S, R>],
-        passed: &[R::Mask; TOGETHER],
+        passed: &[R::Mask; MOST_BLOCKS],
     ) {
-        let mut late = [(0u8, 0u8); TOGETHER * MOST_LANES];
+        let mut late = [(0u8, 0u8); PLAYERS];
         let mut count = 0;
         for (block, passed) in passed.iter().enumerate().take(bodies.len()) {
             let mut bits = passed.not().bits();

@@ -3,6 +3,7 @@
 //! ```text
 //! avx2     8 lanes, masks as integer lanes
 //! avx512   16 lanes, masks as 16 bits
+//! two      two registers of 16 side by side
 //! ```
 //!
 //! Every operation is one instruction of the set, or a few; IEEE `+ - * /` and `sqrt` alone round, as
@@ -19,12 +20,16 @@ mod avx2;
 mod avx512;
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;
+#[cfg(target_arch = "x86_64")]
+mod two;
 mod width;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::F32x8;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::F32x16;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use two::Two;
 pub(crate) use width::{Width, lane_width};
 
 #[cfg(target_arch = "x86_64")]

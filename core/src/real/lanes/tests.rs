@@ -1,6 +1,6 @@
 //! Every operation, lane by lane, against the scalar: the bits, on all kinds of numbers.
 
-use super::{F32x8, F32x16, Width, lane_width};
+use super::{F32x8, F32x16, Two, Width, lane_width};
 use crate::random::{Purpose, bits};
 use crate::real::{Int, Mask, Real, V3, Work};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -262,6 +262,7 @@ fn a_lane_is_copied_alone() {
             Width::One => copies_a_lane::<f32>(),
             Width::Eight => copies_a_lane::<F32x8>(),
             Width::Sixteen => copies_a_lane::<F32x16>(),
+            Width::ThirtyTwo => copies_a_lane::<Two<F32x16>>(),
         }
     }
 }
@@ -273,6 +274,7 @@ fn every_operation_has_the_bits_of_the_scalar() {
             Width::One => agrees_with_scalars::<f32>(),
             Width::Eight => agrees_with_scalars::<F32x8>(),
             Width::Sixteen => agrees_with_scalars::<F32x16>(),
+            Width::ThirtyTwo => agrees_with_scalars::<Two<F32x16>>(),
         }
     }
 }
@@ -284,6 +286,7 @@ fn a_gather_beyond_the_table_panics_and_reads_nothing() {
             Width::One => gather_refuses::<f32>(),
             Width::Eight => gather_refuses::<F32x8>(),
             Width::Sixteen => gather_refuses::<F32x16>(),
+            Width::ThirtyTwo => gather_refuses::<Two<F32x16>>(),
         }
     }
 }
