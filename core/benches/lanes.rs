@@ -87,7 +87,7 @@ fn main() {
         println!("{} {:.2} ns per player-tick, the lowest tenth", sim.digest(), times[times.len() / 10]);
         return;
     }
-    let mut sims: Vec<_> = [1, 8, 16].into_iter().filter_map(|lanes| bench.simulator(lanes)).collect();
+    let mut sims: Vec<_> = [1, 8, 16, 32].into_iter().filter_map(|lanes| bench.simulator(lanes)).collect();
     let mut times = vec![Vec::new(); sims.len()];
     for call in 0..WARM_UP + CALLS {
         for (sim, times) in sims.iter_mut().zip(&mut times) {

@@ -1,4 +1,4 @@
-//! Lanes are no choice of physics: simulators of 1, 8 and 16 players side by side agree in every bit, at
+//! Lanes are no choice of physics: simulators of 1, 8, 16 and 32 players side by side agree in every bit, at
 //! any number of players, in every scene, and take each other's snapshots.
 #![allow(missing_docs)]
 
@@ -26,7 +26,7 @@ fn widths() -> Vec<usize> {
             widths.push(8);
         }
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512bw") {
-            widths.push(16);
+            widths.extend([16, 32]);
         }
     }
     widths
@@ -111,7 +111,7 @@ fn agree(setup: &SimulatorSetup<'_>, ticks: u64) -> (usize, String) {
 fn every_number_of_players_fills_its_blocks_and_no_more() {
     let map = rolling();
     let solids = blocks(&map);
-    for players in 1..=40 {
+    for players in 1..=70 {
         let (tier, scene) = (TIERS[players % 3], SCENES[players / 3 % 4]);
         let s = SimulatorSetup { players, scene, solids: Some(&solids), ..setup(&map, tier) };
         agree(&s, 60);
@@ -179,7 +179,7 @@ fn worlds_of_several_players_and_the_other_tiers_are_scalar() {
 #[test]
 fn a_width_that_there_is_not_is_refused() {
     let map = rolling();
-    for lanes in [0, 2, 3, 32, usize::MAX] {
+    for lanes in [0, 2, 3, 64, usize::MAX] {
         let refused =
             SimulatorSetup { lanes: Some(lanes), ..setup(&map, "authentic") }.build().err().unwrap();
         assert!(refused.0.starts_with("lanes: expected one of "), "{refused}");

@@ -1,5 +1,6 @@
 //! Many players: threads, snapshots, digests, and the two batches users step.
 
+mod alone;
 mod codec;
 mod crowd;
 mod environment;

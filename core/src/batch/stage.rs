@@ -23,6 +23,20 @@ pub(super) struct Body<S: Scene, R: Real> {
     pub(super) arms: S::Arms<R>,
 }
 
+impl<S: Scene, R: Real> AsRef<Player<S, R>> for Body<S, R> {
+    #[inline(always)]
+    fn as_ref(&self) -> &Player<S, R> {
+        &self.player
+    }
+}
+
+impl<S: Scene, R: Real> AsMut<Player<S, R>> for Body<S, R> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut Player<S, R> {
+        &mut self.player
+    }
+}
+
 impl<S: Scene, R: Real> Body<S, R> {
     #[inline(always)]
     pub(super) fn lane(&self, lane: usize) -> Body<S, R::Scalar> {
@@ -41,9 +55,6 @@ impl<S: Scene, R: Real> Body<S, R> {
         }
     }
 }
-
-/// Blocks that are ticked side by side: as many as a processor's window holds instructions of, and more.
-pub(super) const TOGETHER: usize = 8;
 
 /// How far along the contact normal the rays start that a blast sees by, m.
 const LIFTED: f64 = 0.05;
@@ -96,54 +107,14 @@ impl<'a, T: Scalar> Stage<'a, T> {
         Self { surface: maps.surface::<T>(), maps, solids, rules, arsenal, range }
     }
 
-    /// A tick of blocks of players who are alone in their worlds; at most [`TOGETHER`] blocks.
-    ///
-    /// What the ground has no part in comes first, for one block after the other: it is long chains of
-    /// instructions without a branch that could be guessed wrong, so that the chains of several blocks
-    /// overlap. The moves follow.
-    #[inline(always)]
-    pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
-        &self,
-        bodies: &mut [Body<S, R>],
-        inputs: &[Input<R>],
-    ) {
-        let mut velocity = [V3::zero(); TOGETHER];
-        // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
-        let mut near = [R::Mask::splat(false); TOGETHER];
-        let mut saved = [const { None }; TOGETHER];
-        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
-            self.aim(body, input);
-            if S::SOLIDS {
-                near[k] = self.near_solids(body);
-                if near[k].any() {
-                    saved[k] = Some(*body);
-                }
-            }
-            velocity[k] = push::<S, M, R>(&mut body.player, input, self.rules);
-        }
-        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
-            if R::LANES > 1 || saved[k].is_none() {
-                self.play::<S, M, R, _>(body, velocity[k], &self.surface);
-            }
-            if S::SOLIDS
-                && let Some(before) = &saved[k]
-            {
-                for lane in (0..R::LANES).filter(|&lane| near[k].lane(lane)) {
-                    let mut one = before.lane(lane);
-                    self.play_near::<S, M>(&mut one, &input.lane(lane));
-                    body.set_lane(lane, &one);
-                }
-            }
-        }
-    }
-
     /// Everything after the trigger, for one player near a solid. Rare, and long: one copy of it serves
     /// every lane width.
     #[inline(never)]
-    fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
+    pub(super) fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
         let world = self.around(&[], 0);
         let velocity = push::<S, M, T>(&mut body.player, input, self.rules);
-        self.play::<S, M, T, _>(body, velocity, &world);
+        go::<S, M, T, _>(&mut body.player, velocity, &world, self.rules);
+        self.land(body, &world);
     }
 
     /// A tick of several players in one world. They move one after the other, each past the others as
@@ -198,7 +169,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
 
     /// View and trigger.
     #[inline(always)]
-    fn aim<S: Scene, R: Real<Scalar = T>>(&self, body: &mut Body<S, R>, input: &Input<R>) {
+    pub(super) fn aim<S: Scene, R: Real<Scalar = T>>(&self, body: &mut Body<S, R>, input: &Input<R>) {
         look(&mut body.player, input, self.rules);
         if let Some(arms) = body.arms.as_mut() {
             fire(arms, &body.player, input.fire, self.arsenal);
@@ -214,19 +185,24 @@ impl<'a, T: Scalar> Stage<'a, T> {
         world: &W,
     ) {
         go::<S, M, R, W>(p, velocity, world, self.rules);
+        self.wrap(p);
+    }
+
+    /// The position back in its tile.
+    #[inline(always)]
+    fn wrap<S: Scene, R: Real<Scalar = T>>(&self, p: &mut Player<S, R>) {
         (p.position.x, p.position.y, p.tile_x, p.tile_y) =
             self.surface.wrap::<R>(p.position.x, p.position.y, p.tile_x, p.tile_y);
     }
 
-    /// Everything after the forces, for players alone in their worlds; `velocity` is that before them.
+    /// Everything after the move, for players alone in their worlds.
     #[inline(always)]
-    fn play<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
+    pub(super) fn land<S: Scene, R: Real<Scalar = T>, W: Obstacles<R>>(
         &self,
         body: &mut Body<S, R>,
-        velocity: V3<R>,
         world: &W,
     ) {
-        self.advance::<S, M, R, W>(&mut body.player, velocity, world);
+        self.wrap(&mut body.player);
         let Some(arms) = body.arms.as_mut() else { return };
         fly(arms, body.player.map, world, self.arsenal);
         for shot in &arms.slots {
@@ -288,7 +264,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
 
     /// Whose tick, or whose projectiles', may meet a solid.
     #[inline(always)]
-    fn near_solids<S: Scene, R: Real<Scalar = T>>(&self, body: &Body<S, R>) -> R::Mask {
+    pub(super) fn near_solids<S: Scene, R: Real<Scalar = T>>(&self, body: &Body<S, R>) -> R::Mask {
         let mut near = R::Mask::splat(false);
         if !S::SOLIDS {
             return near;

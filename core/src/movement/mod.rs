@@ -26,9 +26,10 @@ pub use sliced::Sliced;
 pub use swept::Swept;
 
 use crate::player::Player;
-use crate::real::{Real, V3};
+use crate::real::{Mask, Real, V3};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
+use crate::terrain::Surface;
 
 /// A form of the movement model.
 pub trait Movement: Copy + Send + Sync + 'static {
@@ -44,4 +45,19 @@ pub trait Movement: Copy + Send + Sync + 'static {
         world: &W,
         rules: &Rules<R::Scalar>,
     );
+
+    /// Whether [`Movement::pass`] may move anybody.
+    const PASSES: bool = false;
+
+    /// Over bare terrain, moves those at once who are easily seen to meet nothing, and returns them. The
+    /// bits are those of `advance`, which must still move the others. Most ticks of most players are such,
+    /// and without a branch on numbers those of several players overlap in the processor.
+    #[inline(always)]
+    fn pass<S: Scene, R: Real>(
+        _p: &mut Player<S, R>,
+        _surface: &Surface<'_, R::Scalar>,
+        _rules: &Rules<R::Scalar>,
+    ) -> R::Mask {
+        R::Mask::splat(false)
+    }
 }

@@ -7,6 +7,7 @@ use crate::player::Player;
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
+use crate::terrain::Surface;
 
 /// Slices of at most a metre, each swept; a contact charges no time and slices the rest anew.
 #[derive(Clone, Copy, Debug)]
@@ -65,5 +66,24 @@ impl Movement for Sliced {
             }
         }
         tally.settle(p);
+    }
+
+    const PASSES: bool = true;
+
+    /// One slice over one square.
+    #[inline(always)]
+    fn pass<S: Scene, R: Real>(
+        p: &mut Player<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        rules: &Rules<R::Scalar>,
+    ) -> R::Mask {
+        let left = R::splat(rules.dt);
+        let single = slices(p.velocity.length() * left).eq(R::Int::splat(1));
+        let step = p.velocity * left;
+        let passed = single.and(surface.passes::<R>(p.map, p.position, step));
+        p.position = V3::select(passed, p.position + step, p.position);
+        p.friction = R::select(passed, R::zero(), p.friction);
+        p.touched = p.touched.and(passed.not());
+        passed
     }
 }

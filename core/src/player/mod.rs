@@ -203,6 +203,28 @@ impl<S: Scene, R: Real> Player<S, R> {
         self.bump_limits.set(limits);
     }
 
+    /// Copies what a move over bare terrain reads or writes from one lane of others. A field that such a
+    /// move comes to use must be listed here.
+    #[inline(always)]
+    pub fn copy_move(&mut self, lane: usize, from: &Self, there: usize) {
+        self.position.copy_lane(lane, &from.position, there);
+        self.map.copy_lane(lane, &from.map, there);
+        self.velocity.copy_lane(lane, &from.velocity, there);
+        self.friction.copy_lane(lane, &from.friction, there);
+        self.touched.copy_lane(lane, &from.touched, there);
+        self.crawled.copy_lane(lane, &from.crawled, there);
+        if let (Some(to), Some(from)) = (self.contact.as_mut(), from.contact.as_ref()) {
+            to.normal.copy_lane(lane, &from.normal, there);
+            to.age.copy_lane(lane, &from.age, there);
+        }
+        if let (Some(to), Some(from)) = (self.damage.as_mut(), from.damage.as_ref()) {
+            to.copy_lane(lane, from, there);
+        }
+        if let (Some(to), Some(from)) = (self.bump_limits.as_mut(), from.bump_limits.as_ref()) {
+            to.copy_lane(lane, from, there);
+        }
+    }
+
     /// Where the player is.
     #[inline(always)]
     #[must_use]

@@ -80,6 +80,11 @@ pub trait Real:
     fn lane(self, lane: usize) -> Self::Scalar;
     /// Overwrites one lane.
     fn set_lane(&mut self, lane: usize, x: Self::Scalar);
+    /// Copies one lane of another number, from memory to memory.
+    #[inline(always)]
+    fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+        self.set_lane(lane, from.lane(there));
+    }
     /// `self < other`; false where either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
     /// `self <= other`; false where either is NaN.

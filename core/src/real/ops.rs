@@ -22,6 +22,13 @@ pub trait Mask: Copy + Debug + Send + Sync + 'static {
     fn lane(self, lane: usize) -> bool;
     /// Overwrites one lane.
     fn set_lane(&mut self, lane: usize, x: bool);
+    /// Copies one lane of another mask.
+    #[inline(always)]
+    fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+        self.set_lane(lane, from.lane(there));
+    }
+    /// A bit for every lane, the first one lowest.
+    fn bits(self) -> u32;
     /// `a` where `self` is set, `b` elsewhere.
     #[inline(always)]
     #[must_use]
@@ -53,6 +60,11 @@ pub trait Int:
     fn lane(self, lane: usize) -> i32;
     /// Overwrites one lane.
     fn set_lane(&mut self, lane: usize, x: i32);
+    /// Copies one lane of another integer, from memory to memory.
+    #[inline(always)]
+    fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+        self.set_lane(lane, from.lane(there));
+    }
     /// Between two bounds.
     #[inline(always)]
     #[must_use]
@@ -91,6 +103,10 @@ impl Mask for bool {
     #[inline(always)]
     fn set_lane(&mut self, _lane: usize, x: bool) {
         *self = x;
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self)
     }
 }
 

@@ -70,6 +70,14 @@ impl<R: Real> V3<R> {
         self.y.set_lane(lane, v.y);
         self.z.set_lane(lane, v.z);
     }
+
+    /// Copies one lane of another vector, from memory to memory.
+    #[inline(always)]
+    pub fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+        self.x.copy_lane(lane, &from.x, there);
+        self.y.copy_lane(lane, &from.y, there);
+        self.z.copy_lane(lane, &from.z, there);
+    }
 }
 
 impl<R: Real> Add for V3<R> {

@@ -1,6 +1,6 @@
 //! A run to the beacon: what is tested every tick, and what it is worth.
 
-use crate::player::Player;
+use crate::player::{Place, Player};
 use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::scene::{Group, Scene};
 use crate::terrain::Surface;
@@ -134,7 +134,7 @@ impl<R: Real> Run<R> {
     #[inline(always)]
     pub fn judge<S: Scene>(
         &mut self,
-        before: &Player<S, R>,
+        before: &Place<R>,
         after: &Player<S, R>,
         task: &SkiTask,
         max_damage: R::Scalar,

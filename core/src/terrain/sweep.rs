@@ -1,6 +1,6 @@
 //! The exact sweep of a point against the triangulated surface (docs/physics.md, section 5).
 
-use super::surface::{Plane, Surface, unit_normal};
+use super::surface::{Plane, Square, Surface, unit_normal};
 use crate::real::{Int, Mask, Real, Scalar, V3, Work};
 
 /// The first contact along a path.
@@ -37,6 +37,39 @@ impl<R: Real> Hit<R> {
             body: later.pick(b.body, a.body),
         }
     }
+}
+
+/// What the squares under a path have in common.
+struct Course<R: Real> {
+    path: V3<R>,
+    /// Height of the start.
+    z: R,
+    /// The first square.
+    i: R::Int,
+    j: R::Int,
+    /// The start relative to its corner.
+    x: R,
+    y: R,
+    east: R::Mask,
+    west: R::Mask,
+    north: R::Mask,
+    south: R::Mask,
+}
+
+/// A path over one square.
+struct Over<R: Real> {
+    /// Where it would leave by each side, and by the nearer one, as fractions of the path.
+    to_x: R,
+    to_y: R,
+    next: R,
+    /// Where it leaves, or ends.
+    to: R,
+    square: Square<R>,
+    /// The triangles, in the order of the path.
+    first: Piece<R>,
+    second: Piece<R>,
+    /// Whether either is met.
+    met: R::Mask,
 }
 
 /// The path relative to one square.
@@ -161,6 +194,84 @@ impl<T: Scalar> Surface<'_, T> {
         R::enter(March::<R, true> { surface: self, map, start, path, active })
     }
 
+    /// Those whose whole path, as [`Surface::sweep`] takes it, lies over its first square and meets
+    /// nothing there. No branch: several players' looks overlap.
+    #[inline(always)]
+    pub fn passes<R: Real<Scalar = T>>(&self, map: R::Int, start: V3<R>, path: V3<R>) -> R::Mask {
+        let course = self.course(start, path);
+        let over = self.over::<R, false>(map, &course, (course.i, course.j), (course.x, course.y), R::zero());
+        let stays = over.next.lt(R::lit(1.0)).not();
+        self.below_highest(start, path).not().or(stays.and(over.met.not()))
+    }
+
+    /// Whose path is not above every vertex all the way: there nothing is to be met.
+    #[inline(always)]
+    fn below_highest<R: Real<Scalar = T>>(&self, start: V3<R>, path: V3<R>) -> R::Mask {
+        start.z.min(start.z + path.z).le(R::splat(self.highest))
+    }
+
+    /// What the squares under a path have in common.
+    #[inline(always)]
+    fn course<R: Real<Scalar = T>>(&self, start: V3<R>, path: V3<R>) -> Course<R> {
+        let zero = R::zero();
+        let size = R::splat(self.square);
+        let (i, j) = self.square_of(start.x, start.y);
+        // Rounding can leave the start a hair outside, and beyond the farthest square it is far outside:
+        // the walk over squares must not make up for it.
+        let x = (start.x - R::from_int(i) * size).max(zero).min(size);
+        let y = (start.y - R::from_int(j) * size).max(zero).min(size);
+        let (east, west) = (zero.lt(path.x), path.x.lt(zero));
+        let (north, south) = (zero.lt(path.y), path.y.lt(zero));
+        Course { path, z: start.z, i, j, x, y, east, west, north, south }
+    }
+
+    /// The path over one square, entered at `from`; `x` and `y` are those of the path's start, relative to
+    /// the square's corner.
+    #[inline(always)]
+    fn over<R: Real<Scalar = T>, const TWO_SIDED: bool>(
+        &self,
+        map: R::Int,
+        course: &Course<R>,
+        (i, j): (R::Int, R::Int),
+        (x, y): (R, R),
+        from: R,
+    ) -> Over<R> {
+        let Course { path, z, east, west, north, south, .. } = *course;
+        let zero = R::zero();
+        let size = R::splat(self.square);
+        let never = R::lit(2.0);
+        let to_x = R::select(east, size - x, -x) / path.x;
+        let to_y = R::select(north, size - y, -y) / path.y;
+        let to_x = R::select(east.or(west), to_x, never);
+        let to_y = R::select(north.or(south), to_y, never);
+        let next = to_x.min(to_y);
+        let to = next.min(R::lit(1.0)).max(from);
+
+        let square = self.square::<R>(map, i, j);
+        let mirror = square.mirrored;
+        let local = Path {
+            x: R::select(mirror, size - x, x),
+            y,
+            z,
+            dx: R::select(mirror, -path.x, path.x),
+            dy: path.y,
+            dz: path.z,
+        };
+        // Across the cut: beside the x axis while x - y > 0.
+        let side = local.x - local.y;
+        let turn = local.dx - local.dy;
+        let along = turn.le(zero).and(zero.le(turn));
+        let cut = (-side / turn).max(from).min(to);
+        let cut = R::select(along, to, cut);
+        let first_lower = R::select(along, -side, turn).lt(zero);
+        let lower = square.plane(first_lower, self.inverse());
+        let upper = square.plane(first_lower.not(), self.inverse());
+        let first = Piece::new::<TWO_SIDED>(&local, lower, from, cut);
+        let second = Piece::new::<TWO_SIDED>(&local, upper, cut, to);
+        let met = square.ground.and(first.met.or(second.met));
+        Over { to_x, to_y, next, to, square, first, second, met }
+    }
+
     /// Walks the squares under a path in order and stops at the first contact.
     #[inline(always)]
     fn march<R: Real<Scalar = T>, const TWO_SIDED: bool>(
@@ -176,75 +287,37 @@ impl<T: Scalar> Surface<'_, T> {
         let mut fraction = one;
         let (mut slope_x, mut slope_y) = (zero, zero);
 
-        // Above every vertex on the whole path: nothing to meet.
-        let lowest = start.z.min(start.z + path.z);
-        let mut active = active.and(lowest.le(R::splat(self.highest)));
-
+        let mut active = active.and(self.below_highest(start, path));
         let size = R::splat(self.square);
-        let inverse = self.inverse::<R>();
-        let (mut i, mut j) = self.square_of(start.x, start.y);
-        // The start relative to the current square's corner. Rounding can leave it a hair outside, and
-        // beyond the farthest square it is far outside: the walk over squares must not make up for it.
-        let (first_i, first_j) = (i, j);
-        let first_x = (start.x - R::from_int(i) * size).max(zero).min(size);
-        let first_y = (start.y - R::from_int(j) * size).max(zero).min(size);
-        let (mut x, mut y) = (first_x, first_y);
-        let (east, west) = (zero.lt(path.x), path.x.lt(zero));
-        let (north, south) = (zero.lt(path.y), path.y.lt(zero));
+        let course = self.course(start, path);
         let (step_i, step_j) = (
-            R::Int::select(west, R::Int::splat(-1), R::Int::splat(1)),
-            R::Int::select(south, R::Int::splat(-1), R::Int::splat(1)),
+            R::Int::select(course.west, R::Int::splat(-1), R::Int::splat(1)),
+            R::Int::select(course.south, R::Int::splat(-1), R::Int::splat(1)),
         );
-        let never = R::lit(2.0);
+        let (mut i, mut j) = (course.i, course.j);
+        let (mut x, mut y) = (course.x, course.y);
         let mut from = zero;
         while active.any() {
-            let to_x = R::select(east, size - x, -x) / path.x;
-            let to_y = R::select(north, size - y, -y) / path.y;
-            let to_x = R::select(east.or(west), to_x, never);
-            let to_y = R::select(north.or(south), to_y, never);
-            let next = to_x.min(to_y);
-            let to = next.min(one).max(from);
-
-            let square = self.square::<R>(map, i, j);
-            let mirror = square.mirrored;
-            let local = Path {
-                x: R::select(mirror, size - x, x),
-                y,
-                z: start.z,
-                dx: R::select(mirror, -path.x, path.x),
-                dy: path.y,
-                dz: path.z,
-            };
-            // Across the cut: beside the x axis while x - y > 0.
-            let side = local.x - local.y;
-            let turn = local.dx - local.dy;
-            let along = turn.le(zero).and(zero.le(turn));
-            let cut = (-side / turn).max(from).min(to);
-            let cut = R::select(along, to, cut);
-            let first_lower = R::select(along, -side, turn).lt(zero);
-            let lower = square.plane(first_lower, inverse);
-            let upper = square.plane(first_lower.not(), inverse);
-            let first = Piece::new::<TWO_SIDED>(&local, lower, from, cut);
-            let second = Piece::new::<TWO_SIDED>(&local, upper, cut, to);
-            let hit = active.and(square.ground).and(first.met.or(second.met));
+            let over = self.over::<R, TWO_SIDED>(map, &course, (i, j), (x, y), from);
+            let hit = active.and(over.met);
             // Most squares are passed over, and need no division to say where they are met.
             if hit.any() {
-                let piece = Piece::select(first.met, &first, &second);
+                let piece = Piece::select(over.first.met, &over.first, &over.second);
                 fraction = R::select(hit, piece.fraction::<TWO_SIDED>(), fraction);
-                slope_x = R::select(hit, square.world_slope(&piece.plane), slope_x);
+                slope_x = R::select(hit, over.square.world_slope(&piece.plane), slope_x);
                 slope_y = R::select(hit, piece.plane.gy, slope_y);
                 found = found.or(hit);
             }
-            active = active.and(hit.not()).and(next.lt(one));
+            active = active.and(hit.not()).and(over.next.lt(one));
 
-            let cross_x = to_x.le(to_y);
-            let cross_y = to_y.le(to_x);
+            let cross_x = over.to_x.le(over.to_y);
+            let cross_y = over.to_y.le(over.to_x);
             i = R::Int::select(cross_x, i + step_i, i);
             j = R::Int::select(cross_y, j + step_j, j);
             // From the first square anew: a sum of steps would drift, and at last stand still.
-            x = first_x - R::from_int(i - first_i) * size;
-            y = first_y - R::from_int(j - first_j) * size;
-            from = to;
+            x = course.x - R::from_int(i - course.i) * size;
+            y = course.y - R::from_int(j - course.j) * size;
+            from = over.to;
         }
         let mut normal = V3::new(-zero, -zero, one);
         if found.any() {

@@ -1,16 +1,13 @@
 //! The environments of a block, and one decision of them while it is in the nearest cache: keys, ticks,
 //! rewards, ends, the next episodes, observations, status.
 
+use super::super::alone::{MOST_BLOCKS, together};
 use super::decision::Decision;
 use super::episode::{Begun, Episodes};
 use super::step::Piece;
 use super::*;
 use crate::real::Work;
 use crate::terrain::{Maps, Surface};
-
-/// Blocks whose phases are worked on together: as many as a processor's window holds instructions of, and
-/// few enough to stay in its nearest cache.
-pub(super) const TOGETHER: usize = 8;
 
 /// The environments of some lanes, side by side.
 #[derive(Clone, Copy)]
@@ -20,6 +17,20 @@ pub(super) struct Block<S: Scene, R: Real> {
     /// The lowest height of each one's map: what is seen where there is no ground, m.
     pub(super) lowest: R,
     pub(super) episodes: Episodes<R>,
+}
+
+impl<S: Scene, R: Real> AsRef<Player<S, R>> for Block<S, R> {
+    #[inline(always)]
+    fn as_ref(&self) -> &Player<S, R> {
+        &self.player
+    }
+}
+
+impl<S: Scene, R: Real> AsMut<Player<S, R>> for Block<S, R> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut Player<S, R> {
+        &mut self.player
+    }
 }
 
 impl<S: Scene, R: Real> Block<S, R> {
@@ -60,21 +71,21 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
         let Self { batch, surface, mut piece, actions } = self;
         let (row, count) = (batch.row, batch.setup.count);
         let turn_rate = <R::Scalar as Scalar>::from_f64(batch.setup.task.turn_rate);
-        for group in 0..piece.blocks.len().div_ceil(TOGETHER) {
-            let start = group * TOGETHER;
-            let end = piece.blocks.len().min(start + TOGETHER);
+        for group in 0..piece.blocks.len().div_ceil(together::<R>()) {
+            let start = group * together::<R>();
+            let end = piece.blocks.len().min(start + together::<R>());
             let blocks = &mut piece.blocks[start..end];
             // Where a block's rows begin within the piece, and how many it has: lanes beyond the last
             // environment are padding.
             let at = |k: usize| (start + k) * R::LANES;
             let players = |k: usize| R::LANES.min(count - piece.first - at(k));
 
-            let mut inputs = [Input::<R>::idle(); TOGETHER];
+            let mut inputs = [Input::<R>::idle(); MOST_BLOCKS];
             for (k, input) in inputs.iter_mut().enumerate().take(blocks.len()) {
                 *input = actions.input::<R>(piece.first + at(k), players(k), turn_rate);
             }
             piece.report.charge(0);
-            let mut decisions = [Decision::<R>::none(); TOGETHER];
+            let mut decisions = [Decision::<R>::none(); MOST_BLOCKS];
             batch.decide(blocks, &inputs, &surface, &mut decisions);
             piece.report.charge(1);
             for (k, block) in blocks.iter_mut().enumerate() {

@@ -1,6 +1,7 @@
 //! The ticks of one decision, and what they are worth.
 
-use super::block::{Block, TOGETHER};
+use super::super::alone::{MOST_BLOCKS, catch_up, passes};
+use super::block::Block;
 use super::episode::Phase;
 use super::*;
 use crate::terrain::Surface;
@@ -37,36 +38,50 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     pub(super) fn decide(
         &self,
         blocks: &mut [Block<S, R>],
-        inputs: &[Input<R>; TOGETHER],
+        inputs: &[Input<R>; MOST_BLOCKS],
         surface: &Surface<'_, R::Scalar>,
-        decisions: &mut [Decision<R>; TOGETHER],
+        decisions: &mut [Decision<R>; MOST_BLOCKS],
     ) {
-        let mut active = [R::Mask::splat(false); TOGETHER];
+        let mut active = [R::Mask::splat(false); MOST_BLOCKS];
         for (k, block) in blocks.iter().enumerate() {
             active[k] = block.episodes.are(Phase::Running);
             decisions[k].played = active[k];
         }
-        let mut after = [blocks[0].player; TOGETHER];
-        let mut velocity = [V3::zero(); TOGETHER];
+        let mut from = [blocks[0].player.place(); MOST_BLOCKS];
+        let mut velocity = [V3::zero(); MOST_BLOCKS];
+        let mut passed = [R::Mask::splat(false); MOST_BLOCKS];
+        let passes = passes::<M, R>();
         for _ in 0..self.setup.task.frame_skip {
-            for (k, block) in blocks.iter().enumerate() {
-                after[k] = block.player;
-                look(&mut after[k], &inputs[k], &self.rules);
-                velocity[k] = push::<S, M, R>(&mut after[k], &inputs[k], &self.rules);
+            // Where some are frozen, what they all were.
+            let mut frozen = [const { None }; MOST_BLOCKS];
+            for (k, block) in blocks.iter_mut().enumerate() {
+                if active[k].not().any() {
+                    frozen[k] = Some((block.player, block.run));
+                }
+                let player = &mut block.player;
+                from[k] = player.place();
+                look(player, &inputs[k], &self.rules);
+                velocity[k] = push::<S, M, R>(player, &inputs[k], &self.rules);
+                if passes {
+                    passed[k] = M::pass(player, surface, &self.rules).or(active[k].not());
+                }
+            }
+            if passes {
+                catch_up::<S, M, R>(blocks, &passed, surface, &self.rules);
             }
             for (k, block) in blocks.iter_mut().enumerate() {
-                if !active[k].any() {
-                    continue;
+                let Block { player, run, .. } = block;
+                let (decision, active) = (&mut decisions[k], &mut active[k]);
+                if !passes {
+                    go::<S, M, R, _>(player, velocity[k], surface, &self.rules);
                 }
-                let Block { player: before, run: running, .. } = block;
-                let (after, decision, active) = (&mut after[k], &mut decisions[k], &mut active[k]);
-                go::<S, M, R, _>(after, velocity[k], surface, &self.rules);
-                let mut run = *running;
-                let verdict = run.judge(before, after, &self.setup.task, self.rules.max_damage, surface);
-                (after.position.x, after.position.y, after.tile_x, after.tile_y) =
-                    surface.wrap::<R>(after.position.x, after.position.y, after.tile_x, after.tile_y);
-                *before = Player::select(*active, after, before);
-                *running = Run::select(*active, &run, running);
+                let verdict = run.judge(&from[k], player, &self.setup.task, self.rules.max_damage, surface);
+                (player.position.x, player.position.y, player.tile_x, player.tile_y) =
+                    surface.wrap::<R>(player.position.x, player.position.y, player.tile_x, player.tile_y);
+                if let Some((before, running)) = &frozen[k] {
+                    *player = Player::select(*active, player, before);
+                    *run = Run::select(*active, run, running);
+                }
                 let more = decision.ticks + R::Int::splat(1);
                 decision.ticks = R::Int::select(*active, more, decision.ticks);
                 decision.arrived = decision.arrived.or(active.and(verdict.arrived));

@@ -6,7 +6,7 @@ use crate::error::{InputError, refuse};
 use crate::movement::{Engine, Fast, Movement, Sliced, Swept};
 use crate::observe::SkiObservation;
 #[cfg(target_arch = "x86_64")]
-use crate::real::lanes::{F32x8, F32x16};
+use crate::real::lanes::{F32x8, F32x16, Two};
 use crate::real::lanes::{Width, lane_width};
 use crate::rules::Physics;
 use crate::scene::Ski;
@@ -78,6 +78,8 @@ impl SkiEnvironments {
             Width::Eight => Batch::<Ski, M, F32x8>::boxed(self),
             #[cfg(target_arch = "x86_64")]
             Width::Sixteen => Batch::<Ski, M, F32x16>::boxed(self),
+            #[cfg(target_arch = "x86_64")]
+            Width::ThirtyTwo => Batch::<Ski, M, Two<F32x16>>::boxed(self),
         }
     }
 

@@ -9,12 +9,13 @@ pub(super) use setup::{check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;
 
+use super::alone::{MOST_BLOCKS, together};
 use super::codec::{body_fields, read_body, write_body};
 use super::neighbourhood::Stand;
 use super::pool::{Crew, PIECE};
 use super::raw_input::RawInput;
 use super::snapshot;
-use super::stage::{Body, Stage, TOGETHER};
+use super::stage::{Body, Stage};
 use crate::arms::Arsenal;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
@@ -144,9 +145,9 @@ impl<S: Scene, M: Movement, R: Real> Work for PlayAlone<'_, S, M, R> {
 
     #[inline(always)]
     fn run(self) {
-        let players = R::LANES * TOGETHER;
-        for (blocks, raw) in self.blocks.chunks_mut(TOGETHER).zip(self.raw.chunks(players)) {
-            let mut inputs = [Input::idle(); TOGETHER];
+        let together = together::<R>();
+        let mut inputs = [Input::idle(); MOST_BLOCKS];
+        for (blocks, raw) in self.blocks.chunks_mut(together).zip(self.raw.chunks(together * R::LANES)) {
             for (input, raw) in inputs.iter_mut().zip(raw.chunks(R::LANES)) {
                 *input = RawInput::pack::<R>(raw);
             }

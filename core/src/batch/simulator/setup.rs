@@ -10,7 +10,7 @@ use crate::float_environment::DefaultFloats;
 use crate::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use crate::player::Player;
 #[cfg(target_arch = "x86_64")]
-use crate::real::lanes::{F32x8, F32x16};
+use crate::real::lanes::{F32x8, F32x16, Two};
 use crate::real::lanes::{Width, lane_width};
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules, named};
@@ -137,6 +137,8 @@ impl SimulatorSetup<'_> {
             Width::Eight => self.kernel::<S, M, F32x8>(),
             #[cfg(target_arch = "x86_64")]
             Width::Sixteen => self.kernel::<S, M, F32x16>(),
+            #[cfg(target_arch = "x86_64")]
+            Width::ThirtyTwo => self.kernel::<S, M, Two<F32x16>>(),
         }
     }
 

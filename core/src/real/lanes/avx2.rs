@@ -57,6 +57,19 @@ impl Mask for Mask8 {
         lanes.set_lane(lane, -i32::from(x));
         self.0 = lanes.0;
     }
+    #[inline(always)]
+    fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+        // SAFETY: a mask is as large as the array of its lanes, and both are plain bits.
+        let (to, from) = unsafe {
+            let to = core::ptr::from_mut(self).cast::<[i32; 8]>();
+            (&mut *to, &*core::ptr::from_ref(from).cast::<[i32; 8]>())
+        };
+        to[lane] = from[there];
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        unsafe { _mm256_movemask_ps(_mm256_castsi256_ps(self.0)).cast_unsigned() }
+    }
 }
 
 operators!(I32x8: Add::add = _mm256_add_epi32, Sub::sub = _mm256_sub_epi32, Mul::mul = _mm256_mullo_epi32);

@@ -67,6 +67,10 @@ impl Mask for Mask16 {
     fn set_lane(&mut self, lane: usize, x: bool) {
         self.0 = self.0 & !(1 << lane) | u16::from(x) << lane;
     }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self.0)
+    }
 }
 
 operators!(I32x16: Add::add = _mm512_add_epi32, Sub::sub = _mm512_sub_epi32, Mul::mul = _mm512_mullo_epi32);

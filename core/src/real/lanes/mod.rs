@@ -3,6 +3,7 @@
 //! ```text
 //! avx2     8 lanes, masks as integer lanes
 //! avx512   16 lanes, masks as 16 bits
+//! two      two registers of 16 side by side
 //! ```
 //!
 //! Every operation is one instruction of the set, or a few; IEEE `+ - * /` and `sqrt` alone round, as
@@ -21,12 +22,16 @@ mod avx512;
 mod tests;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
+#[cfg(target_arch = "x86_64")]
+mod two;
 mod width;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::F32x8;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::F32x16;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use two::Two;
 pub(crate) use width::{Width, lane_width};
 
 #[cfg(target_arch = "x86_64")]
@@ -93,6 +98,15 @@ macro_rules! lane_access {
             lanes[lane] = x;
             // SAFETY: as above.
             self.0 = unsafe { core::mem::transmute::<[$scalar; $count], $register>(lanes) };
+        }
+        #[inline(always)]
+        fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
+            // SAFETY: as above.
+            let (to, from) = unsafe {
+                let to = core::ptr::from_mut(self).cast::<[$scalar; $count]>();
+                (&mut *to, &*core::ptr::from_ref(from).cast::<[$scalar; $count]>())
+            };
+            to[lane] = from[there];
         }
     };
 }

@@ -1,6 +1,6 @@
 //! Every operation, lane by lane, against the scalar: the bits, on all kinds of numbers.
 
-use super::{F32x8, F32x16, Width, lane_width};
+use super::{F32x8, F32x16, Two, Width, lane_width};
 use crate::random::{Purpose, bits};
 use crate::real::{Int, Mask, Real, V3, Work};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -235,6 +235,38 @@ fn gather_refuses<R: Real<Scalar = f32>>() {
     }
 }
 
+/// One lane of another value, and nothing else, changes; the bits of a mask are those of its lanes.
+fn copies_a_lane<R: Real<Scalar = f32>>() {
+    for round in 0..ROUNDS / 100 {
+        let (from, old) = (operands::<R>(round), operands::<R>(round + ROUNDS));
+        let (lane, there) = (round as usize % R::LANES, round as usize / 7 % R::LANES);
+        let (mut a, mut i, mut mask) = (old.a, old.i, old.mask);
+        a.copy_lane(lane, &from.a, there);
+        i.copy_lane(lane, &from.i, there);
+        mask.copy_lane(lane, &from.mask, there);
+        for at in 0..R::LANES {
+            let expected = if at == lane { from.lane(there) } else { old.lane(at) };
+            assert_eq!(a.lane(at).to_bits(), expected.a.to_bits());
+            assert_eq!(i.lane(at), expected.i);
+            assert_eq!(mask.lane(at), expected.mask);
+            assert_eq!(mask.bits() >> at & 1 == 1, expected.mask);
+        }
+        assert_eq!(u64::from(mask.bits()) >> R::LANES, 0);
+    }
+}
+
+#[test]
+fn a_lane_is_copied_alone() {
+    for width in Width::available() {
+        match width {
+            Width::One => copies_a_lane::<f32>(),
+            Width::Eight => copies_a_lane::<F32x8>(),
+            Width::Sixteen => copies_a_lane::<F32x16>(),
+            Width::ThirtyTwo => copies_a_lane::<Two<F32x16>>(),
+        }
+    }
+}
+
 #[test]
 fn every_operation_has_the_bits_of_the_scalar() {
     for width in Width::available() {
@@ -242,6 +274,7 @@ fn every_operation_has_the_bits_of_the_scalar() {
             Width::One => agrees_with_scalars::<f32>(),
             Width::Eight => agrees_with_scalars::<F32x8>(),
             Width::Sixteen => agrees_with_scalars::<F32x16>(),
+            Width::ThirtyTwo => agrees_with_scalars::<Two<F32x16>>(),
         }
     }
 }
@@ -253,6 +286,7 @@ fn a_gather_beyond_the_table_panics_and_reads_nothing() {
             Width::One => gather_refuses::<f32>(),
             Width::Eight => gather_refuses::<F32x8>(),
             Width::Sixteen => gather_refuses::<F32x16>(),
+            Width::ThirtyTwo => gather_refuses::<Two<F32x16>>(),
         }
     }
 }

@@ -13,6 +13,9 @@ pub(crate) enum Width {
     /// [`super::F32x16`].
     #[cfg(target_arch = "x86_64")]
     Sixteen,
+    /// [`super::Two`] registers of [`super::F32x16`].
+    #[cfg(target_arch = "x86_64")]
+    ThirtyTwo,
 }
 
 /// The environment variable that stands for an absent `lanes`.
@@ -21,7 +24,7 @@ const VARIABLE: &str = "DISCJUMP_LANES";
 impl Width {
     /// Widest first.
     #[cfg(target_arch = "x86_64")]
-    const ALL: [Self; 3] = [Self::Sixteen, Self::Eight, Self::One];
+    const ALL: [Self; 4] = [Self::ThirtyTwo, Self::Sixteen, Self::Eight, Self::One];
     /// No lanes but on x86-64.
     #[cfg(not(target_arch = "x86_64"))]
     const ALL: [Self; 1] = [Self::One];
@@ -34,6 +37,8 @@ impl Width {
             Self::Eight => 8,
             #[cfg(target_arch = "x86_64")]
             Self::Sixteen => 16,
+            #[cfg(target_arch = "x86_64")]
+            Self::ThirtyTwo => 32,
         }
     }
 
@@ -43,7 +48,7 @@ impl Width {
             #[cfg(target_arch = "x86_64")]
             Self::Eight => is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
-            Self::Sixteen => {
+            Self::Sixteen | Self::ThirtyTwo => {
                 is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512dq")
