@@ -15,7 +15,7 @@ use crate::tick::{go, push};
 
 /// Players that are ticked side by side, where they have lanes: enough to fill the blocks that the late
 /// ones are gathered into, few enough to stay in the first cache.
-const PLAYERS: usize = 256;
+pub(super) const PLAYERS: usize = 256;
 
 /// The most blocks that they are; single players are blocks of one.
 pub(super) const MOST_BLOCKS: usize = 32;
@@ -33,8 +33,7 @@ impl<T: Scalar> Stage<'_, T> {
         bodies: &mut [Body<S, R>],
         inputs: &[Input<R>],
     ) {
-        // One player alone is done sooner with one look than with two.
-        let passes = M::PASSES && R::LANES > 1;
+        let passes = M::PASSES_FROM <= R::LANES;
         let mut velocity = [V3::zero(); MOST_BLOCKS];
         let mut passed = [R::Mask::splat(false); MOST_BLOCKS];
         // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.

@@ -9,7 +9,7 @@ pub(super) use setup::{check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;
 
-use super::alone::{MOST_BLOCKS, together};
+use super::alone::{MOST_BLOCKS, PLAYERS, together};
 use super::codec::{body_fields, read_body, write_body};
 use super::neighbourhood::Stand;
 use super::pool::{INLINE_BELOW, pool};
@@ -31,7 +31,7 @@ use core::marker::PhantomData;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Players stepped together by one task of the pool, at least.
+/// Players stepped together by one task of the pool, at least, where they have no lanes.
 const CHUNK: usize = 64;
 
 /// What every batch of bodies can do, whatever its scene and tier.
@@ -50,7 +50,7 @@ pub trait Bodies: Send + Sync {
     }
     /// Bytes that one player takes in memory.
     fn player_bytes(&self) -> usize;
-    /// How many players are stepped side by side, in one instruction: 1, 8 or 16. No bit depends on it.
+    /// How many players are stepped side by side: 1, 8, 16 or 32. No bit depends on it.
     fn lanes(&self) -> usize;
     /// The scene's name.
     fn scene(&self) -> &'static str;
@@ -131,7 +131,8 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     /// Players of a task of the pool: whole worlds, and whole blocks.
     fn chunk(&self) -> usize {
         let whole = self.per_world * R::LANES;
-        whole * CHUNK.div_ceil(whole)
+        let least = if R::LANES == 1 { CHUNK } else { PLAYERS };
+        whole * least.div_ceil(whole)
     }
 }
 
