@@ -17,7 +17,7 @@ use crate::tick::{go, push};
 
 /// Players that are ticked side by side, where they have lanes: enough to fill the blocks that the late
 /// ones are gathered into, few enough to stay in the first cache.
-const PLAYERS: usize = 256;
+pub(super) const PLAYERS: usize = 256;
 
 /// The most blocks that they are; single players are blocks of one.
 pub(super) const MOST_BLOCKS: usize = 32;
@@ -30,7 +30,7 @@ pub(super) const fn together<R: Real>() -> usize {
 /// Whether those who meet nothing are moved first: one player alone is done sooner with one look than
 /// with two.
 pub(super) const fn passes<M: Movement, R: Real>() -> bool {
-    M::PASSES && R::LANES > 1
+    M::PASSES_FROM <= R::LANES
 }
 
 impl<T: Scalar> Stage<'_, T> {

@@ -14,8 +14,6 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 pub const MAX_THREADS: usize = 256;
 /// Batches of fewer players are stepped on the caller's thread: waking a pool costs more.
 pub const INLINE_BELOW: usize = 512;
-/// Players that a thread takes at a time: some microseconds of work, so that unequal cores end together.
-pub(super) const PIECE: usize = 256;
 
 struct Node {
     process: u32,

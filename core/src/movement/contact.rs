@@ -48,6 +48,14 @@ pub fn bounce<S: Scene, R: Real>(
     p.velocity = V3::select(hit, out, p.velocity);
 }
 
+/// The move of those in `passed`, who met nothing and end at `end`.
+#[inline(always)]
+pub fn untouched<S: Scene, R: Real>(p: &mut Player<S, R>, passed: R::Mask, end: V3<R>) {
+    p.position = V3::select(passed, end, p.position);
+    p.friction = R::select(passed, R::zero(), p.friction);
+    p.touched = p.touched.and(passed.not());
+}
+
 /// Lifts those who met a ledge of a body that can be stepped onto; returns those who did not, and are
 /// blocked. `steep` is the largest n.up that is tried.
 #[inline(always)]

@@ -20,13 +20,13 @@
 //!
 //! docs/tiers.md has the errors and the cost, measured.
 
-use super::contact::{Tally, slices};
+use super::contact::{Tally, slices, untouched};
 use super::{Movement, Obstacles};
 use crate::player::Player;
 use crate::real::{Mask, Real, V3};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
-use crate::terrain::Hit;
+use crate::terrain::{Ground, Hit, Surface};
 
 /// One look at the ground a tick, where the move ends.
 #[derive(Clone, Copy, Debug)]
@@ -52,10 +52,7 @@ impl Movement for Fast {
         let path = p.velocity * dt;
         let end = p.position + path;
         let mut ground = world.surface().ground::<R>(at.map, end.x, end.y);
-        // Height of the end over the plane there, and how much of it the move has gained.
-        let gap = end.z - ground.height;
-        let climb = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
-        let near = ground.exists.and(gap.min(gap - climb).lt(zero));
+        let near = may_meet(&ground, end, path);
         let mut hit = Hit::none();
         if near.any() {
             hit = world.surface().sweep::<R>(at.map, at.position, path, near);
@@ -104,4 +101,31 @@ impl Movement for Fast {
         p.position.z = R::select(sunk, ground.height, p.position.z);
         tally.settle(p);
     }
+
+    const PASSES_FROM: usize = 16;
+
+    /// The look at the ground.
+    #[inline(always)]
+    fn pass<S: Scene, R: Real>(
+        p: &mut Player<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        rules: &Rules<R::Scalar>,
+    ) -> R::Mask {
+        let path = p.velocity * R::splat(rules.dt);
+        let end = p.position + path;
+        let ground = surface.ground::<R>(p.map, end.x, end.y);
+        let sunk = ground.exists.and(end.z.lt(ground.height));
+        let passed = may_meet(&ground, end, path).or(sunk).not();
+        untouched(p, passed, end);
+        passed
+    }
+}
+
+/// Whose move along `path` has an end below the plane of the ground under its end.
+#[inline(always)]
+fn may_meet<R: Real>(ground: &Ground<R>, end: V3<R>, path: V3<R>) -> R::Mask {
+    // Height of the end over the plane, and how much of it the move has gained.
+    let gap = end.z - ground.height;
+    let climb = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
+    ground.exists.and(gap.min(gap - climb).lt(R::zero()))
 }

@@ -46,8 +46,9 @@ pub trait Movement: Copy + Send + Sync + 'static {
         rules: &Rules<R::Scalar>,
     );
 
-    /// Whether [`Movement::pass`] may move anybody.
-    const PASSES: bool = false;
+    /// The fewest lanes with which [`Movement::pass`] gains time (measured); more than there are where it
+    /// moves nobody. A player alone is done sooner with one look than with two.
+    const PASSES_FROM: usize = usize::MAX;
 
     /// Over bare terrain, moves those at once who are easily seen to meet nothing, and returns them. The
     /// bits are those of `advance`, which must still move the others. Most ticks of most players are such,

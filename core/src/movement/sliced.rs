@@ -1,7 +1,7 @@
 //! The article's movement in slices of at most a metre, restarted at each contact
 //! (docs/physics.md, section 5.2): the `authentic` and the `reference` tier.
 
-use super::contact::{Tally, slices};
+use super::contact::{Tally, slices, untouched};
 use super::{Movement, Obstacles};
 use crate::player::Player;
 use crate::real::{Int, Mask, Real, V3};
@@ -68,7 +68,7 @@ impl Movement for Sliced {
         tally.settle(p);
     }
 
-    const PASSES: bool = true;
+    const PASSES_FROM: usize = 8;
 
     /// One slice over one square.
     #[inline(always)]
@@ -81,9 +81,7 @@ impl Movement for Sliced {
         let single = slices(p.velocity.length() * left).eq(R::Int::splat(1));
         let step = p.velocity * left;
         let passed = single.and(surface.passes::<R>(p.map, p.position, step));
-        p.position = V3::select(passed, p.position + step, p.position);
-        p.friction = R::select(passed, R::zero(), p.friction);
-        p.touched = p.touched.and(passed.not());
+        untouched(p, passed, p.position + step);
         passed
     }
 }

@@ -1,12 +1,13 @@
 //! The article's shortcut (docs/physics.md, section 5.1): one sweep of the whole move, and at a contact
 //! the last slice, as it would have been cut, redone with the new velocity: the `swept` tier.
 
-use super::contact::{Tally, slices};
+use super::contact::{Tally, slices, untouched};
 use super::{Movement, Obstacles};
 use crate::player::Player;
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::{Model, Rules};
 use crate::scene::Scene;
+use crate::terrain::Surface;
 
 /// One sweep per bump, with a fix-up of the last slice.
 ///
@@ -83,5 +84,22 @@ impl Movement for Swept {
             moving = moving.and(tally.limit(p, moving, rules).not());
         }
         tally.settle(p);
+    }
+
+    const PASSES_FROM: usize = 8;
+
+    /// One sweep over one square.
+    #[inline(always)]
+    fn pass<S: Scene, R: Real>(
+        p: &mut Player<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        rules: &Rules<R::Scalar>,
+    ) -> R::Mask {
+        let left = R::splat(rules.dt);
+        let moves = R::Int::splat(0).lt(slices(p.velocity.length() * left));
+        let path = p.velocity * left;
+        let passed = moves.and(surface.passes::<R>(p.map, p.position, path));
+        untouched(p, passed, p.position + path);
+        passed
     }
 }

@@ -14,7 +14,7 @@ use crate::scene::Scene;
 pub const MAX_PITCH: f64 = 1.535_889_741_755_009_3;
 
 /// An angle, radians, that is less than pi also after rounding of a sum.
-const WELL_INSIDE: f64 = 3.1;
+const WELL_INSIDE: f64 = 3.125;
 
 /// An angle in radians brought into [-pi, pi).
 #[inline(always)]

@@ -1,7 +1,8 @@
 //! A batch of ski episodes: reset, step, observe, reward, autoreset, block by block.
 
+use super::alone::PLAYERS;
 use super::codec::{place, read_player, write_player, write_state};
-use super::pool::{Crew, PIECE, resolve_threads};
+use super::pool::{Crew, resolve_threads};
 use super::simulator::find_armor;
 use super::snapshot;
 use crate::error::{InputError, refuse};
@@ -92,7 +93,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     /// Players that a thread takes at a time: whole blocks.
-    const PIECE: usize = R::LANES * PIECE.div_ceil(R::LANES);
+    const PIECE: usize = R::LANES * PLAYERS.div_ceil(R::LANES);
 
     fn crew(&self) -> Result<Crew, InputError> {
         Crew::new(self.threads, self.setup.count)

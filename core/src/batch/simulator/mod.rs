@@ -9,10 +9,10 @@ pub(super) use setup::{check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;
 
-use super::alone::{MOST_BLOCKS, together};
+use super::alone::{MOST_BLOCKS, PLAYERS, together};
 use super::codec::{body_fields, read_body, write_body};
 use super::neighbourhood::Stand;
-use super::pool::{Crew, PIECE};
+use super::pool::Crew;
 use super::raw_input::RawInput;
 use super::snapshot;
 use super::stage::{Body, Stage};
@@ -46,7 +46,7 @@ pub trait Bodies: Send + Sync {
     }
     /// Bytes that one player takes in memory.
     fn player_bytes(&self) -> usize;
-    /// How many players are stepped side by side, in one instruction: 1, 8 or 16. No bit depends on it.
+    /// How many players are stepped side by side: 1, 8, 16 or 32. No bit depends on it.
     fn lanes(&self) -> usize;
     /// The scene's name.
     fn scene(&self) -> &'static str;
@@ -127,7 +127,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     /// Players that a thread takes at a time: whole worlds, and whole blocks.
     fn piece(&self) -> usize {
         let whole = self.per_world * R::LANES;
-        whole * PIECE.div_ceil(whole)
+        whole * PLAYERS.div_ceil(whole)
     }
 }
 

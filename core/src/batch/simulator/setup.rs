@@ -59,9 +59,10 @@ pub struct SimulatorSetup<'a> {
     pub tick_ms: u32,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
-    /// Players stepped side by side: 1, 8 or 16. Where absent the environment variable `DISCJUMP_LANES`
-    /// says, else the processor: as many as it can. No bit of any result depends on it. Only
-    /// "authentic", "swept" and "fast" have lanes, and only where every player is alone in his world.
+    /// Players stepped side by side: 1, 8, 16, or 32 (two registers of 16). Where absent the environment
+    /// variable `DISCJUMP_LANES` says, else processor and number of players: as many as gain time. No bit
+    /// of any result depends on it. Only "authentic", "swept" and "fast" have lanes, and only where every
+    /// player is alone in his world.
     pub lanes: Option<usize>,
 }
 

@@ -21,6 +21,10 @@ pub(crate) enum Width {
 /// The environment variable that stands for an absent `lanes`.
 const VARIABLE: &str = "DISCJUMP_LANES";
 
+/// Players from which on two registers side by side gain time: fewer leave too many of their lanes idle.
+#[cfg(target_arch = "x86_64")]
+const WORTH_TWO: usize = 1024;
+
 impl Width {
     /// Widest first.
     #[cfg(target_arch = "x86_64")]
@@ -57,6 +61,15 @@ impl Width {
         }
     }
 
+    /// Whether so many players are worth the width, measured.
+    fn fits(self, players: usize) -> bool {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::ThirtyTwo => players >= WORTH_TWO,
+            _ => self.lanes() <= 2 * players,
+        }
+    }
+
     /// All that this processor has, widest first.
     pub(crate) fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|width| width.supported())
@@ -64,17 +77,19 @@ impl Width {
 }
 
 /// The width asked for, else the one that the environment variable names, else the widest that the
-/// processor has and so many players half fill. The choice never changes a bit of the results.
+/// processor has and so many players are worth. The choice never changes a bit of the results.
+///
+/// Two registers of 8 are no choice: by their number nobody could tell them from one of 16.
 ///
 /// # Errors
-/// If it is not 1, 8 or 16, or the processor lacks the instructions.
+/// If it is not 1, 8, 16 or 32, or the processor lacks the instructions.
 pub(crate) fn lane_width(asked: Option<usize>, players: usize) -> Result<Width, InputError> {
     let (argument, lanes) = match (asked, std::env::var_os(VARIABLE)) {
         (Some(lanes), _) => ("lanes", lanes.to_string()),
         (None, Some(value)) => (VARIABLE, value.to_string_lossy().into_owned()),
         (None, None) => {
-            let filled = Width::available().find(|width| width.lanes() <= 2 * players);
-            return Ok(filled.unwrap_or(Width::One));
+            let fitting = Width::available().find(|width| width.fits(players));
+            return Ok(fitting.unwrap_or(Width::One));
         }
     };
     let known = Width::available().map(|width| width.lanes().to_string());
