@@ -5,6 +5,9 @@ view of it; were it to do so earlier, algorithms that store the last observation
 learn from observations shifted by one, silently.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
@@ -110,3 +113,34 @@ def test_only_masks_that_are_true_everywhere_are_shared_and_they_refuse_to_be_ch
                 assert column.flags.writeable, key
     assert len(shared) == 1
     assert ends > 3
+
+
+@pytest.mark.parametrize("front", ["vector", "single", "stable-baselines3"])
+def test_buffers_are_used_again_when_nobody_holds_them(front):
+    """Two of each: the caller still holds the last step's while the next one is made."""
+    actions = random_actions(9, 200, 40)
+    step: Callable[..., Any]
+    if front == "vector":
+        envs = SkiVectorEnv(40, **SHORT)
+        envs.reset(seed=0)
+        step = envs.step
+    elif front == "single":
+        # So long an episode that none ends.
+        env, actions = SkiEnv(terrain_seeds=[0], time_limit=600.0), actions[:, 0]
+        env.reset(seed=0)
+        step = env.step
+    else:
+        sb3 = pytest.importorskip("discjump.sb3")
+        envs = sb3.make_vec_env("discjump/Ski-v0", n_envs=40, seed=0, **SHORT)
+        envs.reset()
+        step = envs.step
+    places: dict[object, set[int]] = {}
+    for action in actions:
+        result = step(action)
+        named = dict(enumerate(result[:3])) | (result[-1] if front == "vector" else {})
+        for name, array in named.items():
+            if isinstance(array, np.ndarray):
+                places.setdefault(name, set()).add(array.ctypes.data)
+    assert places
+    assert all(len(addresses) <= 2 for addresses in places.values()), places
+    assert ("return" in places) == (front == "vector")

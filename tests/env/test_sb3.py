@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip("stable_baselines3")
 
 from gymnasium.error import ResetNeeded
-from stable_baselines3 import PPO
+from stable_baselines3 import PPO, SAC
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import (
@@ -71,10 +71,7 @@ def test_same_bits_as_dummy_vec_env(actions):
             assert episode["r"] == pytest.approx(other_episode["r"], abs=1e-6)
             assert episode["t"] >= 0
             same_bits(info, other, f"step {t} of environment {index}")
-            # Read off a float32 observation, scaled twice: three roundings of 2**-24.
-            begun, other_begun = ours.reset_infos[index], theirs.reset_infos[index]
-            assert begun == pytest.approx(other_begun, rel=3 * 2.0**-24)
-            assert list(map(type, begun.values())) == list(map(type, other_begun.values()))
+            same_bits(ours.reset_infos[index], theirs.reset_infos[index])
     assert ends > 10
 
 
@@ -303,6 +300,20 @@ def test_ppo_learns_and_is_evaluated():
         warnings.simplefilter("error")  # among them: no Monitor
         mean, _ = evaluate_policy(model, make(4), n_eval_episodes=4)
     assert np.isfinite(mean)
+
+
+def test_sac_learns_within_wrappers_that_handle_infos():
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="The environment is already wrapped with a `Monitor`")
+        envs = VecNormalize(VecMonitor(make(4, actions="box")))
+    model = SAC("MlpPolicy", envs, learning_starts=64, batch_size=32, buffer_size=1000, device="cpu", seed=0)
+    before = [parameter.detach().clone() for parameter in model.actor.parameters()]
+    # Long enough that episodes end within it: 4 s are 32 decisions.
+    model.learn(4 * 60)
+    assert any(not old.equal(new) for old, new in zip(before, model.actor.parameters(), strict=True))
+    assert model.ep_info_buffer
+    assert model.replay_buffer is not None
+    assert model.replay_buffer.timeouts.any()
 
 
 def test_without_stable_baselines3_the_package_works_and_the_adapter_says_what_to_install():

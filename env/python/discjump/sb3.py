@@ -99,8 +99,7 @@ class SkiVecEnv(VecEnv):
       needed, and `env_is_wrapped(Monitor)` says True);
     - the columns of `discjump.envs.infos`, `is_success` among them.
 
-    `reset_infos` holds the info of each episode's first observation. Where an episode began in a step it is
-    read off that observation: distance and speed are exact to float32, up to where observations are clipped.
+    `reset_infos` holds the info of each episode's first observation.
 
     What `reset` and `step` return never changes afterwards. Rewards are float32, as stable-baselines3 keeps
     them.
@@ -183,34 +182,26 @@ class SkiVecEnv(VecEnv):
         )
         if not ended:
             return observations, rewards, dones, self._quiet
-        return observations, rewards, dones, self._ends(observations)
+        return observations, rewards, dones, self._ends()
 
-    def _ends(self, observations: NDArray[np.float32]) -> list[dict[str, Any]]:
+    def _ends(self) -> list[dict[str, Any]]:
         """The infos of a step that ended episodes."""
-        batch = self._task.batch
-        rows, finals = batch.finished(), batch.final_observations()
-        distances, speeds = (self._read(observations[rows], name) for name in ("beacon_distance", "speed"))
+        batch, begun = self._task.batch, self.reset_infos
         elapsed = round(time.time() - self._started, 6)
-        step_infos = list(self._quiet)
-        for k, (index, info) in enumerate(zip(rows.tolist(), batch.final_infos(), strict=True)):
-            info["terminal_observation"] = finals[k]
+        step_infos = self._quiet[:]
+        for index, info, first, last in zip(
+            batch.finished().tolist(),
+            batch.final_infos(),
+            batch.begun_infos(),
+            batch.final_observations(),
+            strict=True,
+        ):
+            info["terminal_observation"] = last
             info["TimeLimit.truncated"] = info["timeout"]
             info["episode"] = {"r": info["return"], "l": info["length"], "t": elapsed}
             step_infos[index] = info
-            self.reset_infos[index] = {
-                "distance": distances[k],
-                "speed": speeds[k],
-                "time": 0.0,
-                # Starts are drawn inside it.
-                "outside_mission_area": False,
-            }
+            begun[index] = first
         return step_infos
-
-    def _read(self, observations: NDArray[np.float32], name: str) -> list[float]:
-        """A field of one number in its unit, of each of the observations (k, size)."""
-        field = next(field for field in self._task.observation_layout if field.name == name)
-        values: list[float] = (observations[:, field.slice.start].astype(np.float64) * field.scale).tolist()
-        return values
 
     def snapshot(self) -> bytes:
         """Every environment in the middle of its episode, for `restore`; valid for equal options only."""

@@ -133,6 +133,12 @@ impl Infos {
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut now = self.take(py);
         let out = now.output();
+        if mask.is_some() {
+            [&mut *out.distance, &mut *out.speed, &mut *out.time]
+                .into_iter()
+                .for_each(|column| column.fill(0.0));
+            out.outside.fill(false);
+        }
         let mut put = |env: usize, s: Status| {
             (out.distance[env], out.speed[env]) = (s.distance, s.speed);
             (out.time[env], out.outside[env]) = (s.time, s.outside);
@@ -141,10 +147,8 @@ impl Infos {
             batch.status().into_iter().enumerate().for_each(|(env, status)| put(env, status));
             return self.everyone(py, now);
         };
-        let nothing = Status { distance: 0.0, speed: 0.0, time: 0.0, outside: false, terrain: 0 };
-        for (env, &chosen) in mask.iter().enumerate() {
-            put(env, if chosen { batch.status_of(env) } else { nothing });
-        }
+        let chosen = (0..mask.len()).filter(|&env| mask[env]);
+        chosen.for_each(|env| put(env, batch.status_of(env)));
         let info = self.everyone(py, now)?;
         for own in &mut self.masks {
             let mut array = own.take(py);

@@ -255,6 +255,12 @@ impl SkiBatch {
         self.batch.finished().iter().map(|(_, outcome)| self.outputs.infos.last_row(py, outcome)).collect()
     }
 
+    /// The infos of their next episodes' beginnings, where those began in the same step.
+    fn begun_infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let envs = self.batch.finished().iter().map(|&(env, _)| env);
+        envs.map(|env| self.outputs.infos.row(py, &self.batch.status_of(env))).collect()
+    }
+
     /// A byte per environment: 1 where it was reset once, and 2 where its episode is over.
     fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         array1(py, self.life.flags())

@@ -23,10 +23,11 @@ impl SkiBatch {
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let n = self.batch.len();
         let seeds = seeds.as_ref().map(|seeds| entries("seeds", seeds, n)).transpose()?;
-        let mask = mask.as_ref().map(|mask| entries("mask", mask, n)).transpose()?.map(Cow::into_owned);
+        let mask = mask.as_ref().map(|mask| entries("mask", mask, n)).transpose()?;
+        let mask = mask.as_deref();
         let request = ResetRequest {
             seeds: seeds.map(Cow::into_owned).unwrap_or_default(),
-            mask: mask.clone().unwrap_or_default(),
+            mask: mask.unwrap_or_default().to_vec(),
             courses,
             others_observed: mask.is_some() && !self.kept.is_empty(),
         };
@@ -37,8 +38,16 @@ impl SkiBatch {
         }
         let batch = &mut self.batch;
         py.detach(|| batch.reset(&request, observations)).map_err(refused)?;
-        self.life.reset(mask.as_deref());
-        self.remember(array.contents());
+        self.life.reset(mask);
+        if request.others_observed {
+            let row = self.batch.observation_size();
+            for env in (0..n).filter(|&env| request.mask[env]) {
+                let numbers = env * row..(env + 1) * row;
+                self.kept[numbers.clone()].copy_from_slice(&array.contents()[numbers]);
+            }
+        } else {
+            self.remember(array.contents());
+        }
         Ok(array.hand_over())
     }
 }
