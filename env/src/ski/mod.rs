@@ -24,7 +24,7 @@ use request::courses;
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
 pub struct SkiBatch {
-    batch: Box<dyn Environments>,
+    pub(crate) batch: Box<dyn Environments>,
     max_terrain: usize,
     observations: Buffers<f32, Ix2>,
     rewards: Buffers<f64, Ix1>,
