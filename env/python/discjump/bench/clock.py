@@ -124,9 +124,9 @@ def loop(step: Callable[[Any], object], arguments: Sequence[Any]) -> Callable[[i
 
 def _calls(case: Case, made: Ready, effort: Effort) -> int:
     """Also warms up."""
+    calls, taken = 1, made.time(1)
     if case.calls is not None:
         return min(case.calls, 2) if effort.quick else case.calls
-    calls, taken = 1, made.time(1)
     while taken < effort.seconds / 4:
         calls *= 4
         taken = made.time(calls)
