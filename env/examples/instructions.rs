@@ -89,7 +89,7 @@ fn keys(k: u64) -> RawInput {
     RawInput {
         forward: (draw % 3) as i8 - 1,
         strafe: (draw / 3 % 3) as i8 - 1,
-        jump: u8::from(draw / 9 % 4 > 0),
+        jump: u8::from(!(draw / 9).is_multiple_of(4)),
         jet: (draw / 36 % 2) as u8,
         fire: 0,
         turn: (draw / 72 % 7) as f64 - 3.0,

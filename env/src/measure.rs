@@ -39,6 +39,9 @@ impl Outputs {
     }
 }
 
+/// Seconds, environments side by side, and seconds of each part.
+type Timed = (f64, usize, Vec<(&'static str, f64)>);
+
 /// Seconds of `calls` steps with the actions (k, num_envs, 5) in turn; how many environments were side by
 /// side; with `parts` the seconds of each part of a step, summed over threads.
 #[pyfunction]
@@ -49,7 +52,7 @@ pub fn time_environments(
     actions: PyReadonlyArray3<'_, i8>,
     calls: usize,
     parts: bool,
-) -> PyResult<(f64, usize, Vec<(&'static str, f64)>)> {
+) -> PyResult<Timed> {
     let batch = &mut *batch.batch;
     let n = batch.len();
     if actions.shape()[0] == 0 || actions.shape()[1..] != [n, ACTION_SIZE] {

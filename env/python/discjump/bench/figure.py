@@ -106,10 +106,7 @@ def table(rows: Sequence[dict[str, Any]]) -> str:
 def short(value: float) -> str:
     """Three digits, or all before the point.
 
-    >>> [short(x) for x in (0.01234, 1.234, 12.34, 76.0, 1234.5)]
-    ['0.0123', '1.23', '12.3', '76.0', '1,234']
+    >>> [short(x) for x in (0.01234, 1.0, 12.34, 76.0, 1234.5)]
+    ['0.0123', '1.00', '12.3', '76.0', '1,234']
     """
-    size = abs(value)
-    if size >= 100:
-        return f"{value:,.0f}"
-    return f"{value:.1f}" if size >= 10 else f"{value:.3g}"
+    return f"{value:,.0f}" if abs(value) >= 100 else f"{value:#.3g}"
