@@ -10,7 +10,9 @@ mod simulator;
 mod snapshot;
 mod stage;
 
-pub use environment::{Autoreset, Environments, ResetRequest, SkiEnvironments, Status, StepOutput};
+pub use environment::{
+    Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
+};
 pub use pool::{INLINE_BELOW, MAX_THREADS};
 pub use raw_input::RawInput;
 pub use simulator::{

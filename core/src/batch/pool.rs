@@ -7,13 +7,15 @@
 
 use crate::error::InputError;
 use rayon::ThreadPool;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicPtr, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Most threads a batch may ask for.
 pub const MAX_THREADS: usize = 256;
 /// Batches of fewer players are stepped on the caller's thread: waking a pool costs more.
 pub const INLINE_BELOW: usize = 512;
+/// Players that a thread takes at a time: some microseconds of work, so that unequal cores end together.
+pub(super) const PIECE: usize = 128;
 
 struct Node {
     process: u32,
@@ -61,7 +63,7 @@ fn node(threads: usize) -> &'static Node {
 ///
 /// # Errors
 /// If the threads cannot be started.
-pub(super) fn pool(threads: usize) -> Result<&'static ThreadPool, InputError> {
+fn pool(threads: usize) -> Result<&'static ThreadPool, InputError> {
     let node = node(threads);
     if let Some(pool) = node.pool.get() {
         return Ok(pool);
@@ -72,6 +74,53 @@ pub(super) fn pool(threads: usize) -> Result<&'static ThreadPool, InputError> {
         .build()
         .map_err(|e| InputError(format!("threads: {threads} threads could not be started: {e}")))?;
     Ok(node.pool.get_or_init(|| pool))
+}
+
+/// Who steps a batch: the caller's thread, and a pool beside it where that pays.
+#[derive(Clone, Copy)]
+pub(super) struct Crew {
+    pool: Option<&'static ThreadPool>,
+    threads: usize,
+}
+
+impl Crew {
+    /// For a batch of so many players.
+    ///
+    /// # Errors
+    /// If the threads cannot be started.
+    pub(super) fn new(threads: usize, players: usize) -> Result<Self, InputError> {
+        let alone = threads == 1 || players < INLINE_BELOW;
+        Ok(Self { pool: if alone { None } else { Some(pool(threads - 1)?) }, threads })
+    }
+
+    /// Does the work on every piece. Whoever is free takes the next one; the caller works too, from the
+    /// first moment on, while the pool's threads wake up.
+    pub(super) fn share<P: Send>(
+        self,
+        pieces: impl ExactSizeIterator<Item = P> + Send,
+        work: impl Fn(P) + Sync,
+    ) {
+        let helpers = (self.threads - 1).min(pieces.len().saturating_sub(1));
+        let Some(pool) = self.pool.filter(|_| helpers > 0) else {
+            pieces.for_each(work);
+            return;
+        };
+        let pieces = Mutex::new(pieces);
+        let toil = || {
+            loop {
+                // The lock is held for the taking only, and nothing panics under it.
+                let piece = pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some(piece) = piece else { return };
+                work(piece);
+            }
+        };
+        pool.in_place_scope(|scope| {
+            for _ in 0..helpers {
+                scope.spawn(|_| toil());
+            }
+            toil();
+        });
+    }
 }
 
 /// The number of threads to use: the one asked for, or one per core.

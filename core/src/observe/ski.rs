@@ -1,11 +1,12 @@
 //! The observation of the ski task.
 
 use super::landing::{HORIZON, landing};
+use super::rows::Rows;
 use super::seen_ground;
 use crate::armor::{GRAVITY, JUMP_GRACE_MS};
 use crate::error::{InputError, refuse};
 use crate::player::Player;
-use crate::real::Scalar;
+use crate::real::{Int, Mask, Real};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 use crate::task::Run;
@@ -132,93 +133,99 @@ impl SkiObservation {
         self.layout::<S>(1.0, 1.0).iter().map(|f| f.count).sum()
     }
 
-    /// Writes one player's row. `lowest` stands for the height of ground that does not exist.
+    /// Writes the rows of the first `players` lanes, one after the other. `lowest` stands for the height
+    /// of ground that does not exist.
     ///
     /// # Panics
-    /// If `row` is not [`SkiObservation::size`] long.
-    pub fn write<S: Scene, T: Scalar>(
+    /// If `rows` is not so many times [`SkiObservation::size`] long.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "a player, his run and his world, each of its own type")]
+    pub fn write<S: Scene, R: Real>(
         &self,
-        p: &Player<S, T>,
-        run: &Run<T>,
-        surface: &Surface<'_, T>,
-        rules: &Rules<T>,
-        lowest: T,
-        row: &mut [f32],
+        p: &Player<S, R>,
+        run: &Run<R>,
+        surface: &Surface<'_, R::Scalar>,
+        rules: &Rules<R::Scalar>,
+        lowest: R,
+        rows: &mut [f32],
+        players: usize,
     ) {
-        let t = T::from_f64;
-        let one = t(1.0);
-        let mut row = Row(row.iter_mut());
+        let (zero, one) = (R::zero(), R::lit(1.0));
         let (sin, cos) = p.yaw.sin_cos();
-        // (forward, right) parts of a horizontal vector.
-        let turned = |x: T, y: T| [y * cos - x * sin, x * cos + y * sin];
         let v = p.velocity;
         let speed = (v.x * v.x + v.y * v.y).sqrt();
         let (bx, by) = run.to_goal(p.position, [p.tile_x, p.tile_y], surface);
         let distance = (bx * bx + by * by).sqrt();
-        let safe = distance.max(t(1e-3));
+        let safe = distance.max(R::lit(1e-3));
         let (ux, uy) = (bx / safe, by / safe);
-        let ground = seen_ground(surface, p.map, p.position.x, p.position.y, lowest);
+        let ground = seen_ground::<R>(surface, p.map, p.position.x, p.position.y, lowest);
         let below = ground.height;
-        let height = (p.position.z - below).max(T::zero());
+        let height = (p.position.z - below).max(zero);
         let normal = ground.normal();
 
-        let [forward, right] = turned(v.x, v.y);
-        row.push(&[forward, right, v.z, speed], t(1.0 / SPEED));
-        row.push(&turned(ux, uy), one);
-        row.push(&[distance], t(1.0 / DISTANCE));
-        row.push(&[t(NEAR) / (t(NEAR) + distance)], one);
-        row.push(&[run.goal.z - p.position.z], t(1.0 / HEIGHT));
-        row.push(&[v.x * ux + v.y * uy, v.x * uy - v.y * ux], t(1.0 / SPEED));
-        row.push(&turned(normal.x, normal.y), one);
-        row.push(&[height / (height + t(LOW))], one);
-        row.push(&[height], t(1.0 / CLEARANCE));
-        if S::Energy::<T>::MODELED {
-            row.push(&[p.energy.get(one)], one / rules.max_energy);
+        let mut row = Rows::<R>::new(rows, rows.len() / players, players);
+        let by_speed = R::lit(1.0 / SPEED);
+        let (forward, right) = turned(v.x, v.y, sin, cos);
+        row.push(forward, by_speed);
+        row.push(right, by_speed);
+        row.push(v.z, by_speed);
+        row.push(speed, by_speed);
+        let (forward, right) = turned(ux, uy, sin, cos);
+        row.push(forward, one);
+        row.push(right, one);
+        row.push(distance, R::lit(1.0 / DISTANCE));
+        row.push(R::lit(NEAR) / (R::lit(NEAR) + distance), one);
+        row.push(run.goal.z - p.position.z, R::lit(1.0 / HEIGHT));
+        row.push(v.x * ux + v.y * uy, by_speed);
+        row.push(v.x * uy - v.y * ux, by_speed);
+        let (forward, right) = turned(normal.x, normal.y, sin, cos);
+        row.push(forward, one);
+        row.push(right, one);
+        row.push(height / (height + R::lit(LOW)), one);
+        row.push(height, R::lit(1.0 / CLEARANCE));
+        if S::Energy::<R>::MODELED {
+            row.push(p.energy.get(one), one / R::splat(rules.max_energy));
         }
-        if S::Contact::<T>::MODELED {
-            let grace = (JUMP_GRACE_MS - p.contact().age).max(0);
-            row.push(&[T::from_int(grace)], t(1.0 / f64::from(JUMP_GRACE_MS)));
+        if S::Contact::<R>::MODELED {
+            let grace = R::Int::splat(JUMP_GRACE_MS) - p.contact().age;
+            row.push(R::from_int(grace.clamp(0, JUMP_GRACE_MS)), R::lit(1.0 / f64::from(JUMP_GRACE_MS)));
         }
-        if S::Jet::<T>::MODELED {
-            row.push(&[T::from_int(i32::from(p.jetting.get(false)))], one);
+        if S::Jet::<R>::MODELED {
+            row.push(R::select(p.jetting.get(R::Mask::splat(false)), one, zero), one);
         }
-        if S::Damage::<T>::MODELED {
-            row.push(&[p.damage.get(one)], one / rules.max_damage);
+        if S::Damage::<R>::MODELED {
+            row.push(p.damage.get(one), one / R::splat(rules.max_damage));
         }
         if self.landing {
-            let there = landing(p, t(GRAVITY), surface, lowest);
+            let there = landing(p, &ground, R::lit(GRAVITY), surface, lowest);
             let [gx, gy] = there.slope;
             let up = one / (gx * gx + gy * gy + one).sqrt();
             let along = (gx * v.x + gy * v.y) / speed.max(one);
-            row.push(&[there.time], t(1.0 / HORIZON));
-            row.push(&turned(-gx * up, -gy * up), one);
-            row.push(&[there.impact], t(1.0 / SPEED));
-            row.push(&[along], one);
-            row.push(&[there.rise], t(1.0 / HEIGHT));
+            let (forward, right) = turned(-gx * up, -gy * up, sin, cos);
+            row.push(there.time, R::lit(1.0 / HORIZON));
+            row.push(forward, one);
+            row.push(right, one);
+            row.push(there.impact, by_speed);
+            row.push(along, one);
+            row.push(there.rise, R::lit(1.0 / HEIGHT));
         }
         for &[ahead, aside] in &self.bearings {
-            let (ahead, aside) = (t(ahead), t(aside));
+            let (ahead, aside) = (R::lit(ahead), R::lit(aside));
             let dx = aside * cos - ahead * sin;
             let dy = ahead * cos + aside * sin;
             for &range in &self.ranges {
-                let range = t(range);
+                let range = R::lit(range);
                 let (x, y) = (p.position.x + dx * range, p.position.y + dy * range);
-                let z = seen_ground(surface, p.map, x, y, lowest).height;
-                row.push(&[(z - below) / range], one);
+                let z = seen_ground::<R>(surface, p.map, x, y, lowest).height;
+                row.push((z - below) / range, one);
             }
         }
-        assert!(row.0.next().is_none(), "the row is longer than the layout");
+        row.finish();
     }
 }
 
-/// Writes numbers one after the other, scaled and clipped.
-struct Row<'a>(core::slice::IterMut<'a, f32>);
-
-impl Row<'_> {
-    fn push<T: Scalar>(&mut self, numbers: &[T], scale: T) {
-        for &x in numbers {
-            let x = (x * scale).to_f64() as f32;
-            *self.0.next().expect("the row is as long as the layout") = x.clamp(-CLIP, CLIP);
-        }
-    }
+/// (forward, right) parts of a horizontal vector, for the sine and cosine of the yaw.
+#[inline(always)]
+fn turned<R: Real>(x: R, y: R, sin: R, cos: R) -> (R, R) {
+    (y * cos - x * sin, x * cos + y * sin)
 }

@@ -121,13 +121,28 @@ impl<S: Scene, R: Real> Player<S, R> {
     #[inline(always)]
     #[must_use]
     pub fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
-        let mut out = *b;
-        for lane in 0..R::LANES {
-            if mask.lane(lane) {
-                out.set_lane(lane, &a.lane(lane));
-            }
+        let (zero, none, off) = (R::zero(), R::Int::splat(0), R::Mask::splat(false));
+        let (x, y) = (a.contact(), b.contact());
+        Self {
+            position: V3::select(mask, a.position, b.position),
+            tile_x: R::Int::select(mask, a.tile_x, b.tile_x),
+            tile_y: R::Int::select(mask, a.tile_y, b.tile_y),
+            map: R::Int::select(mask, a.map, b.map),
+            velocity: V3::select(mask, a.velocity, b.velocity),
+            yaw: R::select(mask, a.yaw, b.yaw),
+            pitch: R::select(mask, a.pitch, b.pitch),
+            friction: R::select(mask, a.friction, b.friction),
+            touched: mask.pick(a.touched, b.touched),
+            crawled: mask.pick(a.crawled, b.crawled),
+            contact: Group::new(Contact {
+                normal: V3::select(mask, x.normal, y.normal),
+                age: R::Int::select(mask, x.age, y.age),
+            }),
+            jetting: Group::new(mask.pick(a.jetting.get(off), b.jetting.get(off))),
+            energy: Group::new(R::select(mask, a.energy.get(zero), b.energy.get(zero))),
+            damage: Group::new(R::select(mask, a.damage.get(zero), b.damage.get(zero))),
+            bump_limits: Group::new(R::Int::select(mask, a.bump_limits.get(none), b.bump_limits.get(none))),
         }
-        out
     }
 
     /// The player in one lane.

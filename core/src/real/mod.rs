@@ -63,10 +63,19 @@ pub trait Real:
     }
     /// The same number in every lane.
     fn splat(x: Self::Scalar) -> Self;
-    /// `f(lane)` for every lane.
+    /// The same `T` for every lane.
+    fn every<T: Copy + Send + Sync>(x: T) -> Self::Each<T>;
+    /// `f(lane)` for every lane. Not for hot paths: closures are not compiled for the lanes' instruction
+    /// set.
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> Self::Each<T>;
     /// The numbers of all lanes at once.
     fn pack(each: &Self::Each<Self::Scalar>) -> Self;
+    /// All lanes' numbers.
+    fn unpack(self) -> Self::Each<Self::Scalar>;
+    /// The integers of all lanes at once.
+    fn pack_int(each: &Self::Each<i32>) -> Self::Int;
+    /// All lanes' integers.
+    fn unpack_int(i: Self::Int) -> Self::Each<i32>;
     /// The number in one lane.
     fn lane(self, lane: usize) -> Self::Scalar;
     /// Overwrites one lane.
@@ -90,11 +99,25 @@ pub trait Real:
     /// # Panics
     /// If an index is negative or not below the table's length.
     fn gather(table: &[Self::Scalar], index: Self::Int) -> Self;
-    /// `table[index]` and `table[index + 1]`, lane by lane: half the cost of two gathers.
+    /// The numbers of `table[index]` and of `table[index + 1]`, in this order, lane by lane: one load each.
     ///
     /// # Panics
     /// If an index is negative, or its successor not below the table's length.
-    fn gather_pair(table: &[Self::Scalar], index: Self::Int) -> (Self, Self);
+    fn gather_square(table: &[[Self::Scalar; 2]], index: Self::Int) -> [Self; 4];
+    /// Turns columns into rows: writes the number of lane `l` of `columns[k]`, rounded to `f32`, to
+    /// `rows[l * stride + at + k]`, for the first `count` columns and the first `players` lanes.
+    ///
+    /// # Panics
+    /// If a row does not end within `rows` or its stride, or there are more columns or players than
+    /// lanes.
+    fn write_rows(
+        columns: &Self::Each<Self>,
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    );
 
     /// A constant of the specification, rounded to the lane's type.
     #[inline(always)]

@@ -44,12 +44,28 @@ macro_rules! scalar {
                 x
             }
             #[inline(always)]
+            fn every<T: Copy + Send + Sync>(x: T) -> [T; 1] {
+                [x; 1]
+            }
+            #[inline(always)]
             fn each<T: Copy + Send + Sync>(mut f: impl FnMut(usize) -> T) -> [T; 1] {
                 [f(0)]
             }
             #[inline(always)]
             fn pack(each: &[$t; 1]) -> Self {
                 each[0]
+            }
+            #[inline(always)]
+            fn unpack(self) -> [$t; 1] {
+                [self]
+            }
+            #[inline(always)]
+            fn pack_int(each: &[i32; 1]) -> i32 {
+                each[0]
+            }
+            #[inline(always)]
+            fn unpack_int(i: i32) -> [i32; 1] {
+                [i]
             }
             #[inline(always)]
             fn lane(self, _lane: usize) -> $t {
@@ -92,9 +108,23 @@ macro_rules! scalar {
                 table[index as usize]
             }
             #[inline(always)]
-            fn gather_pair(table: &[$t], index: i32) -> (Self, Self) {
-                let [first, second] = table[index as usize..][..2] else { unreachable!() };
-                (first, second)
+            fn gather_square(table: &[[$t; 2]], index: i32) -> [Self; 4] {
+                let [[a, b], [c, d]] = table[index as usize..][..2] else { unreachable!() };
+                [a, b, c, d]
+            }
+            #[inline(always)]
+            fn write_rows(
+                columns: &[$t; 1],
+                count: usize,
+                rows: &mut [f32],
+                stride: usize,
+                at: usize,
+                players: usize,
+            ) {
+                assert!(count <= 1 && players <= 1 && at + count <= stride, "a column beyond the row");
+                if count == 1 && players == 1 {
+                    rows[at] = columns[0] as f32;
+                }
             }
         }
     };

@@ -2,7 +2,7 @@
 
 use crate::error::{InputError, refuse};
 use crate::input::Input;
-use crate::real::Scalar;
+use crate::real::{Int, Real, Scalar};
 
 /// Numbers per action: forward, strafe, jump, jet, turn.
 pub const ACTION_SIZE: usize = 5;
@@ -69,54 +69,86 @@ impl Actions<'_> {
         Ok(())
     }
 
-    /// The keys of one player. `turn_rate` is the fastest turn, rad/s.
+    /// The keys of `players` players from the `first` on, side by side; further lanes press none.
+    /// `turn_rate` is the fastest turn, rad/s.
+    #[inline(always)]
     #[must_use]
-    pub fn input<T: Scalar>(&self, player: usize, turn_rate: T) -> Input<T> {
-        let row = player * ACTION_SIZE;
+    pub fn input<R: Real>(&self, first: usize, players: usize, turn_rate: R::Scalar) -> Input<R> {
+        let rows = first * ACTION_SIZE..(first + players) * ACTION_SIZE;
         match self {
-            Self::Int8(a) => discrete(&a[row..row + ACTION_SIZE], turn_rate),
-            Self::Int32(a) => discrete(&a[row..row + ACTION_SIZE], turn_rate),
-            Self::Int64(a) => discrete(&a[row..row + ACTION_SIZE], turn_rate),
-            Self::Float(a) => continuous(&a[row..row + ACTION_SIZE], turn_rate),
+            Self::Int8(a) => discrete(&a[rows], turn_rate),
+            Self::Int32(a) => discrete(&a[rows], turn_rate),
+            Self::Int64(a) => discrete(&a[rows], turn_rate),
+            Self::Float(a) => continuous(&a[rows], turn_rate),
         }
     }
 }
 
 fn find_bad<I: Copy + Into<i64>>(actions: &[I]) -> Option<(usize, String)> {
-    for (row, action) in actions.chunks_exact(ACTION_SIZE).enumerate() {
-        for (column, (&a, bins)) in action.iter().zip(ACTION_BINS).enumerate() {
-            let a: i64 = a.into();
-            if !(0..bins).contains(&a) {
-                let what = format!("expected 0 to {}, got {a}", bins - 1);
-                return Some((row * ACTION_SIZE + column, what));
-            }
+    /// A stretch of rows long enough to be checked by whole registers.
+    const STRETCH: usize = 16 * ACTION_SIZE;
+    let bins: [i64; STRETCH] = core::array::from_fn(|k| ACTION_BINS[k % ACTION_SIZE]);
+    let fits = |&(&action, &bins): &(&I, &i64)| (0..bins).contains(&action.into());
+    for (k, stretch) in actions.chunks(STRETCH).enumerate() {
+        // No early exit within a stretch, so that the compiler can look at many at a time.
+        let bad = stretch.iter().zip(&bins).map(|pair| u32::from(!fits(&pair))).sum::<u32>();
+        if bad > 0 {
+            let at = stretch.iter().zip(&bins).position(|pair| !fits(&pair))?;
+            let what = format!("expected 0 to {}, got {}", bins[at] - 1, stretch[at].into());
+            return Some((k * STRETCH + at, what));
         }
     }
     None
 }
 
-fn discrete<T: Scalar, I: Copy + Into<i64>>(a: &[I], turn_rate: T) -> Input<T> {
-    let number = |k: usize| -> i64 { a[k].into() };
-    let key = |k: usize| T::from_int((number(k) - 1) as i32);
+#[inline(always)]
+fn discrete<R: Real, I: Copy + Into<i64>>(actions: &[I], turn_rate: R::Scalar) -> Input<R> {
+    // No key, for lanes without a player.
+    let mut columns = [R::every(1_i32), R::every(1), R::every(0), R::every(0), R::every(3)];
+    // Plain loops: adapters of iterators and arrays stay calls here, for each number.
+    for lane in 0..actions.len() / ACTION_SIZE {
+        for column in 0..ACTION_SIZE {
+            // Checked: it is a small number.
+            columns[column].as_mut()[lane] = actions[lane * ACTION_SIZE + column].into() as i32;
+        }
+    }
+    let [forward, strafe, jump, jet, turn] = &columns;
+    let one = R::Int::splat(1);
     Input {
-        forward: key(0),
-        strafe: key(1),
-        jump: number(2) != 0,
-        jet: number(3) != 0,
-        turn: T::from_int((number(4) - 3) as i32) / T::from_f64(3.0) * turn_rate,
+        forward: R::from_int(R::pack_int(forward) - one),
+        strafe: R::from_int(R::pack_int(strafe) - one),
+        jump: R::Int::splat(0).lt(R::pack_int(jump)),
+        jet: R::Int::splat(0).lt(R::pack_int(jet)),
+        turn: R::from_int(R::pack_int(turn) - R::Int::splat(3)) / R::lit(3.0) * R::splat(turn_rate),
         ..Input::idle()
     }
 }
 
-fn continuous<T: Scalar>(a: &[f32], turn_rate: T) -> Input<T> {
-    let third = 1.0 / 3.0;
-    let key = |x: f32| T::from_int(i32::from(x > third) - i32::from(x < -third));
+#[inline(always)]
+fn continuous<R: Real>(actions: &[f32], turn_rate: R::Scalar) -> Input<R> {
+    let mut columns = [R::every(R::Scalar::default()); ACTION_SIZE];
+    for lane in 0..actions.len() / ACTION_SIZE {
+        for column in 0..ACTION_SIZE {
+            let number = f64::from(actions[lane * ACTION_SIZE + column]);
+            columns[column].as_mut()[lane] = R::Scalar::from_f64(number);
+        }
+    }
+    let [forward, strafe, jump, jet, turn] = &columns;
+    let zero = R::zero();
     Input {
-        forward: key(a[0]),
-        strafe: key(a[1]),
-        jump: a[2] > 0.0,
-        jet: a[3] > 0.0,
-        turn: T::from_f64(f64::from(a[4])) * turn_rate,
+        forward: key(R::pack(forward)),
+        strafe: key(R::pack(strafe)),
+        jump: zero.lt(R::pack(jump)),
+        jet: zero.lt(R::pack(jet)),
+        turn: R::pack(turn) * R::splat(turn_rate),
         ..Input::idle()
     }
+}
+
+/// 1 beyond a third, -1 beyond minus a third. The threshold is that of `f32`, in which actions come.
+#[inline(always)]
+fn key<R: Real>(x: R) -> R {
+    let third = R::lit(f64::from(1.0_f32 / 3.0));
+    let (zero, one) = (R::zero(), R::lit(1.0));
+    R::select(third.lt(x), one, R::select(x.lt(-third), -one, zero))
 }

@@ -166,6 +166,21 @@ impl<R: Real> Run<R> {
         Verdict { arrived, died, timed_out: late.and(arrived.or(died).not()) }
     }
 
+    /// `a` where the mask is set, `b` elsewhere.
+    #[inline(always)]
+    #[must_use]
+    pub fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
+        let [a_x, a_y] = a.goal_tile;
+        let [b_x, b_y] = b.goal_tile;
+        Self {
+            goal: V3::select(mask, a.goal, b.goal),
+            goal_tile: [R::Int::select(mask, a_x, b_x), R::Int::select(mask, a_y, b_y)],
+            ticks: R::Int::select(mask, a.ticks, b.ticks),
+            path: R::select(mask, a.path, b.path),
+            top_speed: R::select(mask, a.top_speed, b.top_speed),
+        }
+    }
+
     /// The run in one lane.
     #[inline(always)]
     #[must_use]

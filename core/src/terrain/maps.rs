@@ -16,13 +16,16 @@ pub const MAX_ALTITUDE: f64 = 1e5;
 
 /// Equal-sized heightfields in one array. A player knows his map by its offset in it.
 ///
+/// A vertex is stored with its neighbour to the north (with itself in the last row), so that the four
+/// corners of a square lie side by side: one load, and mostly one cache line, where rows would take two.
+///
 /// Local coordinates count from the vertex nearest the map's centre, so that square indices are
 /// exact integers and positions within a tile are small.
 #[derive(Clone, Debug)]
 pub struct Maps {
     grid: Grid,
-    heights64: Vec<f64>,
-    heights32: Vec<f32>,
+    pairs64: Vec<[f64; 2]>,
+    pairs32: Vec<[f32; 2]>,
     ranges: Vec<(f64, f64)>,
     highest: f64,
     digest: u128,
@@ -51,8 +54,13 @@ impl Maps {
         if i32::try_from(total).is_err() {
             return Err(InputError(format!("terrains: expected at most 2^31 vertices in all, got {total}")));
         }
-        let heights64: Vec<f64> = terrains.iter().flat_map(|t| t.heights().iter().copied()).collect();
-        let heights32 = heights64.iter().map(|&h| h as f32).collect();
+        let mut pairs64 = Vec::with_capacity(total);
+        for heights in terrains.iter().map(Heightfield::heights) {
+            let last_row = &heights[heights.len() - grid.cols..];
+            let north = heights[grid.cols..].iter().chain(last_row);
+            pairs64.extend(heights.iter().zip(north).map(|(&south, &north)| [south, north]));
+        }
+        let pairs32 = pairs64.iter().map(|pair| pair.map(|h| h as f32)).collect();
         let ranges: Vec<(f64, f64)> = terrains
             .iter()
             .map(|t| t.heights().iter().fold((f64::MAX, f64::MIN), |(l, h), &z| (l.min(z), h.max(z))))
@@ -60,10 +68,10 @@ impl Maps {
         let highest = ranges.iter().fold(f64::MIN, |m, r| m.max(r.1));
         let mut digest = Xxh3::new();
         digest.update(format!("{grid:?}").as_bytes());
-        for row in heights64.chunks(grid.cols) {
+        for row in terrains.iter().flat_map(|t| t.heights().chunks(grid.cols)) {
             digest.update(&row.iter().flat_map(|h| h.to_le_bytes()).collect::<Vec<u8>>());
         }
-        Ok(Self { grid: *grid, heights64, heights32, ranges, highest, digest: digest.digest128() })
+        Ok(Self { grid: *grid, pairs64, pairs32, ranges, highest, digest: digest.digest128() })
     }
 
     /// How many maps there are.
@@ -99,7 +107,7 @@ impl Maps {
     /// Bytes of the pool.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.heights64.len() * 8 + self.heights32.len() * 4
+        size_of_val(&*self.pairs64) + size_of_val(&*self.pairs32)
     }
 
     /// XXH3-128 of grid and heights.
@@ -111,9 +119,8 @@ impl Maps {
     /// The kernel's view in the arithmetic `T`.
     #[must_use]
     pub fn surface<T: Scalar>(&self) -> Surface<'_, T> {
-        let heights =
-            if T::DOUBLE { cast::<f64, T>(&self.heights64) } else { cast::<f32, T>(&self.heights32) };
-        Surface::new(heights, &self.grid, self.highest)
+        let pairs = if T::DOUBLE { cast(&self.pairs64) } else { cast(&self.pairs32) };
+        Surface::new(pairs, &self.grid, self.highest)
     }
 
     /// World coordinates of the vertex that local coordinates count from, m.
@@ -173,7 +180,7 @@ impl Maps {
 }
 
 /// A slice of the type it already has, which the caller knows by `Scalar::DOUBLE`.
-fn cast<F: 'static, T: Scalar>(values: &[F]) -> &[T] {
+fn cast<F: 'static, T: 'static>(values: &[F]) -> &[T] {
     assert_eq!(core::any::TypeId::of::<F>(), core::any::TypeId::of::<T>());
     // SAFETY: F and T are the same type, as just checked.
     unsafe { core::slice::from_raw_parts(values.as_ptr().cast(), values.len()) }

@@ -6,7 +6,8 @@ use crate::real::{Int, Mask, Real, Scalar, V3};
 /// A pool of maps in the arithmetic `T`.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface<'a, T> {
-    heights: &'a [T],
+    /// Every vertex with its northern neighbour.
+    pairs: &'a [[T; 2]],
     pub(super) square: T,
     inverse: T,
     rows: i32,
@@ -84,13 +85,13 @@ impl<R: Real> Square<R> {
 }
 
 impl<'a, T: Scalar> Surface<'a, T> {
-    pub(super) fn new(heights: &'a [T], grid: &Grid, highest: f64) -> Self {
+    pub(super) fn new(pairs: &'a [[T; 2]], grid: &Grid, highest: f64) -> Self {
         let (rows, cols) = (grid.rows as i32, grid.cols as i32);
         let centre = grid.centre_vertex().map(|i| i as i32);
         let t = T::from_f64;
         let size = grid.square_size;
         Self {
-            heights,
+            pairs,
             square: t(size),
             inverse: t(1.0 / size),
             rows,
@@ -118,19 +119,16 @@ impl<'a, T: Scalar> Surface<'a, T> {
         let i = i.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[0]);
         let j = j.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[1]);
         let (last_i, last_j) = (self.cols - 2, self.rows - 2);
-        let one = R::Int::splat(1);
         let mut ground = R::Mask::splat(true);
-        // Where the pair of columns begins, the rows, and the square whose parity counts.
-        let (column, south, north, parity);
+        // The south-western vertex, and the square whose parity counts.
+        let (column, row, parity);
         match self.edge {
             Edge::Tile => {
-                let (a, b) = (i.wrap(self.cols - 1), j.wrap(self.rows - 1));
-                (column, south, north) = (a, b, b + one);
-                parity = a + b;
+                (column, row) = (i.wrap(self.cols - 1), j.wrap(self.rows - 1));
+                parity = column + row;
             }
             Edge::Clamp => {
-                column = i.clamp(0, last_i);
-                (south, north) = (j.clamp(0, self.rows - 1), (j + one).clamp(0, self.rows - 1));
+                (column, row) = (i.clamp(0, last_i), j.clamp(0, self.rows - 1));
                 parity = i + j;
             }
             Edge::Void => {
@@ -138,22 +136,22 @@ impl<'a, T: Scalar> Surface<'a, T> {
                 let outside = i.lt(zero).or(R::Int::splat(last_i).lt(i));
                 let outside = outside.or(j.lt(zero)).or(R::Int::splat(last_j).lt(j));
                 ground = outside.not();
-                let (a, b) = (i.clamp(0, last_i), j.clamp(0, last_j));
-                (column, south, north) = (a, b, b + one);
+                (column, row) = (i.clamp(0, last_i), j.clamp(0, last_j));
                 parity = i + j;
             }
         }
-        let cols = R::Int::splat(self.cols);
-        let south = map + south * cols;
-        let north = map + north * cols;
         let mirrored = parity.is_odd();
-        let (mut sw, mut se) = R::gather_pair(self.heights, south + column);
-        let (mut nw, mut ne) = R::gather_pair(self.heights, north + column);
+        let index = map + row * R::Int::splat(self.cols) + column;
+        let [mut sw, mut nw, mut se, mut ne] = R::gather_square(self.pairs, index);
         if self.edge == Edge::Clamp {
-            // Beyond the rim both corners are the nearer one of the last pair.
-            let (beyond_west, beyond_east) = (i.lt(R::Int::splat(0)), R::Int::splat(last_i).lt(i));
+            // Beyond the rim both corners are the nearer one of the last pair; beyond the northern one
+            // they are so already.
+            let zero = R::Int::splat(0);
+            let (beyond_west, beyond_east) = (i.lt(zero), R::Int::splat(last_i).lt(i));
             (sw, se) = (R::select(beyond_east, se, sw), R::select(beyond_west, sw, se));
             (nw, ne) = (R::select(beyond_east, ne, nw), R::select(beyond_west, nw, ne));
+            let beyond_south = j.lt(zero);
+            (nw, ne) = (R::select(beyond_south, sw, nw), R::select(beyond_south, se, ne));
         }
         let corner = [
             R::select(mirrored, se, sw),

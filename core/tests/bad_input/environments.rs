@@ -2,7 +2,7 @@
 
 use crate::common::envs::{Envs, ski};
 use crate::{INF, NAN, refused};
-use discjump_core::batch::{Autoreset, ResetRequest, SkiEnvironments, StepOutput};
+use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StepOutput};
 use discjump_core::error::InputError;
 use discjump_core::observe::SkiObservation;
 use discjump_core::task::{ActionKind, Actions, CourseRequest};
@@ -71,7 +71,8 @@ fn envs_unchanged(
 
 fn step(envs: &mut Envs, actions: Actions<'_>) -> Result<(), InputError> {
     let Envs { batch, observations, rewards, terminated, truncated } = envs;
-    batch.step(actions, StepOutput { observations, rewards, terminated, truncated })
+    let rewards = Rewards::F64(rewards);
+    batch.step(actions, StepOutput { observations, rewards, terminated, truncated, status: None })
 }
 
 #[test]
@@ -118,9 +119,10 @@ fn outputs_of_a_decision() {
                 let n = observations.len();
                 let output = StepOutput {
                     observations: &mut observations[..cut(0, n)],
-                    rewards: &mut rewards[..cut(1, 2)],
+                    rewards: Rewards::F64(&mut rewards[..cut(1, 2)]),
                     terminated: &mut terminated[..cut(2, 2)],
                     truncated: &mut truncated[..cut(3, 2)],
+                    status: None,
                 };
                 batch.step(Actions::Int8(&actions), output)
             },

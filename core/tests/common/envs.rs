@@ -1,7 +1,7 @@
 //! Batches of small ski episodes, played by a script that sees nothing but its own row.
 
 use super::rolling;
-use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
+use discjump_core::batch::{Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StepOutput};
 use discjump_core::observe::SkiObservation;
 use discjump_core::rules::Physics;
 use discjump_core::task::{ACTION_SIZE, ActionKind, Actions, Outcome, Reward, SkiTask};
@@ -36,6 +36,7 @@ pub fn ski(count: usize, fidelity: &str) -> SkiEnvironments {
         observation: SkiObservation::new(&[-30.0, 0.0, 30.0], &[10.0, 40.0], true).unwrap(),
         autoreset: Autoreset::SameStep,
         threads: Some(1),
+        lanes: None,
     }
 }
 
@@ -108,9 +109,10 @@ impl Envs {
     pub fn step(&mut self, actions: &[i8]) {
         let output = StepOutput {
             observations: &mut self.observations,
-            rewards: &mut self.rewards,
+            rewards: Rewards::F64(&mut self.rewards),
             terminated: &mut self.terminated,
             truncated: &mut self.truncated,
+            status: None,
         };
         self.batch.step(Actions::Int8(actions), output).unwrap();
         for env in 0..self.batch.len() {

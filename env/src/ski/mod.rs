@@ -6,7 +6,7 @@ use crate::physics::PhysicsArgument;
 use crate::pools::pool;
 use crate::simulator::state_fields;
 use crate::terrain::Terrain;
-use discjump_core::batch::{Autoreset, Environments, ResetRequest, SkiEnvironments, StepOutput};
+use discjump_core::batch::{Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StepOutput};
 use discjump_core::observe::{CLIP, SkiObservation};
 use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, Reward, SkiTask};
 use numpy::ndarray::{Ix1, Ix2};
@@ -101,6 +101,7 @@ impl SkiBatch {
             observation: SkiObservation::new(&fan_bearings, &fan_ranges, landing).map_err(refused)?,
             autoreset: autoreset_mode(autoreset)?,
             threads,
+            lanes: None,
         };
         let batch = setup.build().map_err(refused)?;
         let row = batch.observation_size();
@@ -305,9 +306,10 @@ impl SkiBatch {
             let (mut c, mut d) = (out.2.readwrite(), out.3.readwrite());
             let output = StepOutput {
                 observations: a.as_slice_mut()?,
-                rewards: b.as_slice_mut()?,
+                rewards: Rewards::F64(b.as_slice_mut()?),
                 terminated: c.as_slice_mut()?,
                 truncated: d.as_slice_mut()?,
+                status: None,
             };
             let batch = &mut self.batch;
             py.detach(|| batch.step(actions, output)).map_err(refused)?;

@@ -33,11 +33,35 @@ pub struct StepOutput<'a> {
     /// Observations, row by row.
     pub observations: &'a mut [f32],
     /// Rewards.
-    pub rewards: &'a mut [f64],
+    pub rewards: Rewards<'a>,
     /// Whether the episode ended by arrival or death.
     pub terminated: &'a mut [bool],
     /// Whether the episode ended by the clock.
     pub truncated: &'a mut [bool],
+    /// What every step says of every environment, where that is wanted.
+    pub status: Option<StatusOutput<'a>>,
+}
+
+/// Rewards in the precision that is asked for.
+#[derive(Debug)]
+pub enum Rewards<'a> {
+    /// As they are.
+    F64(&'a mut [f64]),
+    /// Rounded to nearest.
+    F32(&'a mut [f32]),
+}
+
+/// Columns of [`Status`] after the step: of the next episode where one began in it.
+#[derive(Debug)]
+pub struct StatusOutput<'a> {
+    /// See [`Status::distance`].
+    pub distance: &'a mut [f64],
+    /// See [`Status::speed`].
+    pub speed: &'a mut [f64],
+    /// See [`Status::time`].
+    pub time: &'a mut [f64],
+    /// See [`Status::outside`].
+    pub outside: &'a mut [bool],
 }
 
 /// What is reported of an environment at any time.
@@ -62,6 +86,17 @@ pub trait Environments: Send + Sync {
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
+    /// How many environments are stepped side by side, in one instruction: 1, 8 or 16. No bit depends on
+    /// it.
+    fn lanes(&self) -> usize;
+    /// Whether every environment was reset at least once, as a step demands.
+    fn ready(&self) -> bool;
+    /// Begins, or ends, to measure where the time of a step goes; see [`Environments::parts`].
+    fn time_parts(&mut self, on: bool);
+    /// Seconds spent in each part of all steps since [`Environments::time_parts`] was switched on, summed
+    /// over threads: "input" (actions to keys), "physics", "task" (reward, ends, resets), "observation"
+    /// and "output" (flags, status). Empty while it is off. Looking at the clock costs some 10% itself.
+    fn parts(&self) -> Vec<(&'static str, f64)>;
     /// Numbers in an observation.
     fn observation_size(&self) -> usize;
     /// The layout of an observation.

@@ -31,6 +31,69 @@ pub(super) struct Episode {
     pub(super) length: i64,
 }
 
+/// The episodes of some lanes, field by field: a step reads and writes those of all lanes at once.
+#[derive(Clone, Copy)]
+pub(super) struct Episodes<R: Real> {
+    seed: R::Each<u64>,
+    episode: R::Each<u64>,
+    pub(super) map: R::Each<u32>,
+    pub(super) phase: R::Each<Phase>,
+    pub(super) distance: R::Each<f64>,
+    start_distance: R::Each<f64>,
+    pub(super) total_reward: R::Each<f64>,
+    pub(super) length: R::Each<i64>,
+}
+
+impl<R: Real> Episodes<R> {
+    /// None has begun.
+    pub(super) fn none() -> Self {
+        Self {
+            seed: R::every(0),
+            episode: R::every(0),
+            map: R::every(0),
+            phase: R::every(Phase::default()),
+            distance: R::every(0.0),
+            start_distance: R::every(0.0),
+            total_reward: R::every(0.0),
+            length: R::every(0),
+        }
+    }
+
+    pub(super) fn lane(&self, lane: usize) -> Episode {
+        Episode {
+            seed: self.seed.as_ref()[lane],
+            episode: self.episode.as_ref()[lane],
+            map: self.map.as_ref()[lane],
+            phase: self.phase.as_ref()[lane],
+            distance: self.distance.as_ref()[lane],
+            start_distance: self.start_distance.as_ref()[lane],
+            total_reward: self.total_reward.as_ref()[lane],
+            length: self.length.as_ref()[lane],
+        }
+    }
+
+    pub(super) fn set_lane(&mut self, lane: usize, e: &Episode) {
+        self.seed.as_mut()[lane] = e.seed;
+        self.episode.as_mut()[lane] = e.episode;
+        self.map.as_mut()[lane] = e.map;
+        self.phase.as_mut()[lane] = e.phase;
+        self.distance.as_mut()[lane] = e.distance;
+        self.start_distance.as_mut()[lane] = e.start_distance;
+        self.total_reward.as_mut()[lane] = e.total_reward;
+        self.length.as_mut()[lane] = e.length;
+    }
+
+    /// Which lanes are in a phase.
+    #[inline(always)]
+    pub(super) fn are(&self, phase: Phase) -> R::Mask {
+        let mut mask = R::Mask::splat(false);
+        for lane in 0..R::LANES {
+            mask.set_lane(lane, self.phase.as_ref()[lane] == phase);
+        }
+        mask
+    }
+}
+
 /// An episode about to be put into its block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Begun<S: Scene, T: Scalar> {

@@ -1,7 +1,7 @@
 //! A batch of ski episodes: reset, step, observe, reward, autoreset, block by block.
 
 use super::codec::{place, read_player, write_player, write_state};
-use super::pool::{INLINE_BELOW, pool, resolve_threads};
+use super::pool::{Crew, PIECE, resolve_threads};
 use super::simulator::find_armor;
 use super::snapshot;
 use crate::error::{InputError, refuse};
@@ -15,27 +15,22 @@ use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 use crate::task::{ActionKind, Actions, CourseRequest, Outcome, Run, draw_course};
 use glam::{DVec3, IVec2};
-use rayon::prelude::*;
 
 mod api;
+mod block;
+mod decision;
+mod ends;
 mod episode;
+mod parts;
 mod setup;
 mod step;
 
-pub use api::{Autoreset, Environments, ResetRequest, Status, StepOutput};
+pub use api::{Autoreset, Environments, ResetRequest, Rewards, Status, StatusOutput, StepOutput};
+use block::Block;
 use episode::{Begun, Episode, Phase};
+use parts::{PARTS, Watch};
 pub use setup::SkiEnvironments;
-
-/// Players stepped together by one task of the pool.
-const CHUNK: usize = 32;
-
-/// The environments of some lanes, side by side.
-#[derive(Clone, Copy, Debug)]
-struct Block<S: Scene, R: Real> {
-    player: Player<S, R>,
-    run: Run<R>,
-    episodes: R::Each<Episode>,
-}
+use step::Report;
 
 struct Batch<S: Scene, M: Movement, R: Real> {
     setup: SkiEnvironments,
@@ -43,6 +38,10 @@ struct Batch<S: Scene, M: Movement, R: Real> {
     blocks: Vec<Block<S, R>>,
     finished: Vec<(usize, Outcome)>,
     final_observations: Vec<f32>,
+    /// What the pieces of a step report, one each; kept, so that a step need not ask for memory.
+    reports: Vec<Report>,
+    /// Whether every environment was reset at least once.
+    ready: bool,
     row: usize,
     threads: usize,
     /// Whether a step panicked half-way: better no bits than wrong ones.
@@ -57,11 +56,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let armor = find_armor(&setup.armor)?;
         let rules = Rules::new(M::MODEL, armor, setup.energy_pack, setup.tick_ms, setup.physics);
         let row = setup.observation.size::<S>();
-        let idle = Block {
-            player: Player::new(&rules, V3::zero(), R::Int::splat(0)),
-            run: Run::idle(),
-            episodes: R::each(|_| Episode::default()),
-        };
         let corners: Vec<u8> =
             setup.areas.iter().flat_map(|a| [a.min, a.max].concat()).flat_map(f64::to_le_bytes).collect();
         let layout = format!(
@@ -80,12 +74,14 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             setup.maps.digest(),
             xxhash_rust::xxh3::xxh3_64(&corners),
         );
-        let blocks = vec![idle; setup.count.div_ceil(R::LANES)];
+        let blocks = vec![Block::idle(&rules); setup.count.div_ceil(R::LANES)];
         Ok(Box::new(Self {
             rules,
             blocks,
             finished: Vec::new(),
             final_observations: Vec::new(),
+            reports: Vec::new(),
+            ready: false,
             row,
             threads,
             broken: false,
@@ -95,38 +91,42 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         }))
     }
 
-    /// Whether to step on the caller's thread: waking the pool costs more for few players.
-    fn inline(&self) -> bool {
-        self.threads == 1 || self.setup.count < INLINE_BELOW
+    /// Players that a thread takes at a time: whole blocks.
+    const PIECE: usize = R::LANES * PIECE.div_ceil(R::LANES);
+
+    fn crew(&self) -> Result<Crew, InputError> {
+        Crew::new(self.threads, self.setup.count)
     }
 
-    fn lanes(&self) -> impl Iterator<Item = (Player<S, R::Scalar>, Run<R::Scalar>, &Episode)> {
-        let lanes = self
-            .blocks
-            .iter()
-            .flat_map(|b| (0..R::LANES).map(|l| (b.player.lane(l), b.run.lane(l), &b.episodes.as_ref()[l])));
+    fn each(&self) -> impl Iterator<Item = (Player<S, R::Scalar>, Run<R::Scalar>, Episode)> {
+        let each = |b: &Block<S, R>, lane| (b.player.lane(lane), b.run.lane(lane), b.episodes.lane(lane));
+        let lanes = self.blocks.iter().flat_map(move |b| (0..R::LANES).map(move |lane| each(b, lane)));
         lanes.take(self.setup.count)
     }
 
-    fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode) -> Status {
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        let map = episode.map as usize;
-        Status {
-            distance: run.distance(p, &surface).to_f64(),
-            speed: p.velocity.length().to_f64(),
-            time: run.seconds(self.rules.tick_ms),
-            outside: !self.setup.areas[map].contains(place(&self.setup.maps, p).truncate().into()),
-            terrain: map,
-        }
+    fn episode(&self, index: usize) -> Episode {
+        self.blocks[index / R::LANES].episodes.lane(index % R::LANES)
+    }
+
+    fn put(&mut self, index: usize, begun: &Begun<S, R::Scalar>) {
+        self.blocks[index / R::LANES].put(index % R::LANES, begun, &self.setup.maps);
     }
 
     fn bytes(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        for (player, run, episode) in self.lanes() {
+        for (player, run, episode) in self.each() {
             write_player(&player, true, &mut out);
-            episode::write(&run, episode, &mut out);
+            episode::write(&run, &episode, &mut out);
         }
         out
+    }
+
+    /// After a reset or a restore.
+    fn note_phases(&mut self) {
+        let ready = self.each().all(|(_, _, episode)| episode.phase != Phase::Unseeded);
+        self.ready = ready;
+        self.finished.clear();
+        self.final_observations.clear();
     }
 
     fn body_stride(&self) -> usize {
@@ -137,6 +137,30 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     fn len(&self) -> usize {
         self.setup.count
+    }
+
+    fn lanes(&self) -> usize {
+        R::LANES
+    }
+
+    fn ready(&self) -> bool {
+        self.ready
+    }
+
+    fn time_parts(&mut self, on: bool) {
+        self.reports = (0..self.setup.count.div_ceil(Self::PIECE)).map(|_| Report::new(on)).collect();
+    }
+
+    fn parts(&self) -> Vec<(&'static str, f64)> {
+        let mut watches = self.reports.iter().filter_map(|report| report.watch.as_ref()).peekable();
+        if watches.peek().is_none() {
+            return Vec::new();
+        }
+        let mut spent = [0.0; PARTS.len()];
+        for watch in watches {
+            spent.iter_mut().zip(watch.spent()).for_each(|(sum, one)| *sum += one.as_secs_f64());
+        }
+        PARTS.into_iter().zip(spent).collect()
     }
 
     fn observation_size(&self) -> usize {
@@ -154,11 +178,12 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError> {
         self.check_reset(request, observations.len())?;
+        let crew = self.crew()?;
         let _floats = DefaultFloats::enter();
         let chosen = |i: usize| request.mask.is_empty() || request.mask[i];
         let mut begun: Vec<(usize, Begun<S, R::Scalar>)> = Vec::new();
         for i in (0..self.setup.count).filter(|&i| chosen(i)) {
-            let old = self.blocks[i / R::LANES].episodes.as_ref()[i % R::LANES];
+            let old = self.episode(i);
             let (seed, number) = match (request.seeds.get(i), old.phase) {
                 (Some(&seed), _) => (seed, 0),
                 (None, Phase::Unseeded) => {
@@ -174,11 +199,10 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
             begun.push((i, next));
         }
         for (i, next) in begun {
-            self.blocks[i / R::LANES].put(i % R::LANES, &next);
+            self.put(i, &next);
         }
-        self.finished.clear();
-        self.final_observations.clear();
-        self.observe_all(observations);
+        self.note_phases();
+        self.observe_all(crew, observations);
         Ok(())
     }
 
@@ -196,11 +220,11 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     }
 
     fn status(&self) -> Vec<Status> {
-        self.lanes().map(|(p, run, episode)| self.status_of(&p, &run, episode)).collect()
+        self.each().map(|(p, run, episode)| self.status_of(&p, &run, &episode)).collect()
     }
 
     fn goals(&self) -> Vec<[f64; 3]> {
-        self.lanes()
+        self.each()
             .map(|(_, run, _)| {
                 let goal = DVec3::new(run.goal.x.to_f64(), run.goal.y.to_f64(), run.goal.z.to_f64());
                 let tile = IVec2::from(run.goal_tile);
@@ -215,7 +239,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn state(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        self.lanes().for_each(|(p, _, _)| write_state(&self.setup.maps, &p, &mut out));
+        self.each().for_each(|(p, _, _)| write_state(&self.setup.maps, &p, &mut out));
         out
     }
 
@@ -234,28 +258,18 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
             refuse!("snapshot: expected {} bytes, got {}", stride * self.setup.count, body.len());
         }
         for (i, bytes) in body.chunks_exact(stride).enumerate() {
-            let block = &mut self.blocks[i / R::LANES];
-            let mut player = block.player.lane(i % R::LANES);
+            let mut player = self.blocks[i / R::LANES].player.lane(i % R::LANES);
             let (head, tail) = bytes.split_at(stride - episode::BYTES);
             read_player(&mut player, true, head);
             let (run, episode) = episode::read(tail);
-            block.put(i % R::LANES, &Begun { player, run, episode });
+            self.put(i, &Begun { player, run, episode });
         }
-        self.finished.clear();
-        self.final_observations.clear();
+        self.note_phases();
         self.broken = false;
         Ok(())
     }
 
     fn digest(&self) -> String {
         format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes()))
-    }
-}
-
-impl<S: Scene, R: Real> Block<S, R> {
-    fn put(&mut self, lane: usize, begun: &Begun<S, R::Scalar>) {
-        self.player.set_lane(lane, &begun.player);
-        self.run.set_lane(lane, &begun.run);
-        self.episodes.as_mut()[lane] = begun.episode;
     }
 }

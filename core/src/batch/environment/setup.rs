@@ -3,8 +3,11 @@
 use super::super::simulator::{MAX_PLAYERS, check_tick, find_armor};
 use super::{Autoreset, Batch, Environments};
 use crate::error::{InputError, refuse};
-use crate::movement::{Engine, Fast, Sliced, Swept};
+use crate::movement::{Engine, Fast, Movement, Sliced, Swept};
 use crate::observe::SkiObservation;
+#[cfg(target_arch = "x86_64")]
+use crate::real::lanes::{F32x8, F32x16};
+use crate::real::lanes::{Width, lane_width};
 use crate::rules::Physics;
 use crate::scene::Ski;
 use crate::task::{ActionKind, SkiTask};
@@ -42,6 +45,10 @@ pub struct SkiEnvironments {
     pub autoreset: Autoreset,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
+    /// Environments stepped side by side: 1, 8 or 16. Where absent the environment variable
+    /// `DISCJUMP_LANES` says, else the processor: as many as it can. No bit of any result depends on it.
+    /// "reference" and "engine" have no lanes.
+    pub lanes: Option<usize>,
 }
 
 impl SkiEnvironments {
@@ -53,13 +60,24 @@ impl SkiEnvironments {
         self.check()?;
         match self.fidelity.as_str() {
             "reference" => Batch::<Ski, Sliced, f64>::boxed(self),
-            "authentic" => Batch::<Ski, Sliced, f32>::boxed(self),
-            "swept" => Batch::<Ski, Swept, f32>::boxed(self),
-            "fast" => Batch::<Ski, Fast, f32>::boxed(self),
+            "authentic" => self.side_by_side::<Sliced>(),
+            "swept" => self.side_by_side::<Swept>(),
+            "fast" => self.side_by_side::<Fast>(),
             "engine" => Batch::<Ski, Engine, f32>::boxed(self),
             other => refuse!(
                 "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\" or \"engine\", got {other:?}"
             ),
+        }
+    }
+
+    /// The kernel of a tier that has lanes.
+    fn side_by_side<M: Movement>(self) -> Result<Box<dyn Environments>, InputError> {
+        match lane_width(self.lanes, self.count)? {
+            Width::One => Batch::<Ski, M, f32>::boxed(self),
+            #[cfg(target_arch = "x86_64")]
+            Width::Eight => Batch::<Ski, M, F32x8>::boxed(self),
+            #[cfg(target_arch = "x86_64")]
+            Width::Sixteen => Batch::<Ski, M, F32x16>::boxed(self),
         }
     }
 

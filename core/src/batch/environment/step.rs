@@ -1,33 +1,98 @@
-//! One decision of a batch: ticks, rewards, ends, autoreset and observations in one pass over a block.
+//! A step of the whole batch: checks, pieces for the threads, and what the pieces report.
 
+use super::block::{Observe, Step};
 use super::*;
+use crate::terrain::Surface;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// A piece of the outputs that belongs to one piece of the batch.
-struct Piece<'a, S: Scene, R: Real> {
-    blocks: &'a mut [Block<S, R>],
-    observations: &'a mut [f32],
-    rewards: &'a mut [f64],
-    terminated: &'a mut [bool],
-    truncated: &'a mut [bool],
-    /// Index of its first environment.
-    first: usize,
-}
-
 /// The episodes of a piece that ended, in order, with their last observations.
-#[derive(Default)]
-struct Ended {
-    outcomes: Vec<(usize, Outcome)>,
-    observations: Vec<f32>,
+#[derive(Debug)]
+pub(super) struct Report {
+    pub(super) outcomes: Vec<(usize, Outcome)>,
+    pub(super) observations: Vec<f32>,
+    pub(super) watch: Option<Watch>,
 }
 
-/// How an environment's decision went.
-#[derive(Clone, Copy, Default)]
-struct Decision {
-    ticks: i32,
-    arrived: bool,
-    died: bool,
-    timed_out: bool,
+impl Report {
+    /// Of nothing yet; with a watch where the parts of a step are to be timed.
+    pub(super) fn new(timed: bool) -> Self {
+        let watch = timed.then(Watch::start);
+        Self { outcomes: Vec::new(), observations: Vec::new(), watch }
+    }
+
+    /// Time between two steps is charged to nobody.
+    fn restart(&mut self) {
+        if let Some(watch) = self.watch.as_mut() {
+            watch.restart();
+        }
+    }
+
+    /// Charges the time since the last charge to a part.
+    #[inline(always)]
+    pub(super) fn charge(&mut self, part: usize) {
+        if let Some(watch) = self.watch.as_mut() {
+            watch.charge(part);
+        }
+    }
+}
+
+impl Rewards<'_> {
+    /// Overwrites those from `at` on.
+    #[inline(always)]
+    pub(super) fn write(&mut self, at: usize, rewards: &[f64]) {
+        match self {
+            Self::F64(all) => all[at..at + rewards.len()].copy_from_slice(rewards),
+            Self::F32(all) => {
+                for (out, &reward) in all[at..at + rewards.len()].iter_mut().zip(rewards) {
+                    *out = reward as f32;
+                }
+            }
+        }
+    }
+}
+
+impl<'a> StepOutput<'a> {
+    /// Takes off the rows of the first `players`, of `row` numbers each.
+    fn split_off(&mut self, players: usize, row: usize) -> Self {
+        fn front<'a, T>(slice: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+            slice.split_off_mut(..count).expect("the lengths were checked")
+        }
+        Self {
+            observations: front(&mut self.observations, players * row),
+            rewards: match &mut self.rewards {
+                Rewards::F64(all) => Rewards::F64(front(all, players)),
+                Rewards::F32(all) => Rewards::F32(front(all, players)),
+            },
+            terminated: front(&mut self.terminated, players),
+            truncated: front(&mut self.truncated, players),
+            status: self.status.as_mut().map(|all| StatusOutput {
+                distance: front(&mut all.distance, players),
+                speed: front(&mut all.speed, players),
+                time: front(&mut all.time, players),
+                outside: front(&mut all.outside, players),
+            }),
+        }
+    }
+
+    /// Every length but that of the observations.
+    fn lengths(&self) -> impl Iterator<Item = usize> {
+        let rewards = match &self.rewards {
+            Rewards::F64(all) => all.len(),
+            Rewards::F32(all) => all.len(),
+        };
+        let status =
+            self.status.iter().flat_map(|s| [s.distance.len(), s.speed.len(), s.time.len(), s.outside.len()]);
+        [rewards, self.terminated.len(), self.truncated.len()].into_iter().chain(status)
+    }
+}
+
+/// A piece of the batch and of the outputs.
+pub(super) struct Piece<'a, S: Scene, R: Real> {
+    pub(super) blocks: &'a mut [Block<S, R>],
+    pub(super) output: StepOutput<'a>,
+    pub(super) report: &'a mut Report,
+    /// Index of its first environment.
+    pub(super) first: usize,
 }
 
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
@@ -65,225 +130,89 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.check_whole()?;
         let n = self.setup.count;
         actions.check(self.setup.actions, n)?;
-        let sizes = [output.rewards.len(), output.terminated.len(), output.truncated.len()];
-        if output.observations.len() != n * self.row || sizes != [n; 3] {
+        if output.observations.len() != n * self.row || output.lengths().any(|len| len != n) {
             refuse!("output: expected {n} rows of {} and {n} of the rest", self.row);
         }
-        let mut episodes = self.blocks.iter().flat_map(|b| b.episodes.as_ref()).take(n);
-        if episodes.any(|e| e.phase == Phase::Unseeded) {
+        if !self.ready {
             refuse!("step: expected every environment to have been reset before its first step");
         }
         Ok(())
     }
 
-    pub(super) fn observe_all(&self, observations: &mut [f32]) {
-        for ((player, run, episode), row) in self.lanes().zip(observations.chunks_exact_mut(self.row)) {
-            self.observe(&player, &run, episode, row);
-        }
+    /// The observations of a block's first players.
+    #[inline(always)]
+    pub(super) fn observe_block(
+        &self,
+        block: &Block<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        rows: &mut [f32],
+        players: usize,
+    ) {
+        self.observe::<R>(&block.player, &block.run, surface, block.lowest, rows, players);
     }
 
-    fn observe(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, episode: &Episode, row: &mut [f32]) {
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        let lowest = <R::Scalar as Scalar>::from_f64(self.setup.maps.range(episode.map as usize).0);
-        self.setup.observation.write(p, run, &surface, &self.rules, lowest, row);
+    /// The observations of the players of some lanes.
+    #[inline(always)]
+    pub(super) fn observe<L: Real<Scalar = R::Scalar>>(
+        &self,
+        player: &Player<S, L>,
+        run: &Run<L>,
+        surface: &Surface<'_, R::Scalar>,
+        lowest: L,
+        rows: &mut [f32],
+        players: usize,
+    ) {
+        self.setup.observation.write(player, run, surface, &self.rules, lowest, rows, players);
+    }
+
+    pub(super) fn observe_all(&self, crew: Crew, observations: &mut [f32]) {
+        let (blocks, rows) = (Self::PIECE / R::LANES, Self::PIECE * self.row);
+        let surface = self.setup.maps.surface();
+        let pieces = self.blocks.chunks(blocks).zip(observations.chunks_mut(rows));
+        crew.share(pieces, |(blocks, rows)| {
+            let _floats = DefaultFloats::enter();
+            R::enter(Observe { batch: self, surface, blocks, rows });
+        });
     }
 
     pub(super) fn step_all(
         &mut self,
         actions: Actions<'_>,
-        output: StepOutput<'_>,
+        mut output: StepOutput<'_>,
     ) -> Result<(), InputError> {
-        let inline = self.inline();
-        let pool = if inline { None } else { Some(pool(self.threads)?) };
-        // The blocks leave the batch for the step, so that the rest of it can be read from every thread.
+        let crew = self.crew()?;
+        let (count, row) = (self.setup.count, self.row);
+        // They leave the batch for the step, so that the rest of it can be read from every thread.
         let mut blocks = core::mem::take(&mut self.blocks);
-        let per_task = if inline { blocks.len() } else { CHUNK.div_ceil(R::LANES) };
-        let rows = per_task * R::LANES;
+        let mut reports = core::mem::take(&mut self.reports);
+        reports.resize_with(count.div_ceil(Self::PIECE), || Report::new(false));
         let this = &*self;
-        let stepped = catch_unwind(AssertUnwindSafe(|| match pool {
-            None => {
-                let StepOutput { observations, rewards, terminated, truncated } = output;
-                let piece =
-                    Piece { blocks: &mut blocks, observations, rewards, terminated, truncated, first: 0 };
-                vec![this.step_piece(piece, actions)]
-            }
-            Some(pool) => pool.install(|| {
-                blocks
-                    .par_chunks_mut(per_task)
-                    .zip(output.observations.par_chunks_mut(rows * this.row))
-                    .zip(output.rewards.par_chunks_mut(rows))
-                    .zip(output.terminated.par_chunks_mut(rows))
-                    .zip(output.truncated.par_chunks_mut(rows))
-                    .enumerate()
-                    .map(|(k, ((((blocks, observations), rewards), terminated), truncated))| {
-                        let first = k * rows;
-                        this.step_piece(
-                            Piece { blocks, observations, rewards, terminated, truncated, first },
-                            actions,
-                        )
-                    })
-                    .collect::<Vec<Ended>>()
-            }),
+        let surface = this.setup.maps.surface();
+        let pieces = blocks.chunks_mut(Self::PIECE / R::LANES).zip(&mut reports).enumerate();
+        let pieces = pieces.map(move |(k, (blocks, report))| {
+            let first = k * Self::PIECE;
+            let output = output.split_off(Self::PIECE.min(count - first), row);
+            Piece { blocks, output, report, first }
+        });
+        let stepped = catch_unwind(AssertUnwindSafe(|| {
+            crew.share(pieces, |piece| {
+                let _floats = DefaultFloats::enter();
+                piece.report.restart();
+                R::enter(Step { batch: this, surface, piece, actions });
+            });
         }));
         self.blocks = blocks;
-        let ended = stepped.unwrap_or_else(|panic| {
-            self.broken = true;
-            resume_unwind(panic)
-        });
         self.finished.clear();
         self.final_observations.clear();
-        for piece in ended {
-            self.finished.extend(piece.outcomes);
-            self.final_observations.extend(piece.observations);
+        for report in &mut reports {
+            self.finished.append(&mut report.outcomes);
+            self.final_observations.append(&mut report.observations);
+        }
+        self.reports = reports;
+        if let Err(panic) = stepped {
+            self.broken = true;
+            resume_unwind(panic);
         }
         Ok(())
-    }
-
-    fn step_piece(&self, piece: Piece<'_, S, R>, actions: Actions<'_>) -> Ended {
-        let _floats = DefaultFloats::enter();
-        let mut ended = Ended::default();
-        let mut observations = piece.observations.chunks_exact_mut(self.row);
-        for (k, block) in piece.blocks.iter_mut().enumerate() {
-            let decisions = self.decide(block, piece.first + k * R::LANES, actions);
-            for lane in 0..R::LANES {
-                let (at, env) = (k * R::LANES + lane, piece.first + k * R::LANES + lane);
-                // Lanes beyond the last environment are padding.
-                let Some(row) = observations.next() else { return ended };
-                let decision = decisions.as_ref()[lane];
-                (piece.rewards[at], piece.terminated[at], piece.truncated[at]) =
-                    self.settle(block, lane, env, decision, row, &mut ended);
-            }
-        }
-        ended
-    }
-
-    /// Plays the ticks of one decision. A player whose episode ends freezes for the rest of them.
-    fn decide(&self, block: &mut Block<S, R>, first: usize, actions: Actions<'_>) -> R::Each<Decision> {
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        let turn_rate = <R::Scalar as Scalar>::from_f64(self.setup.task.turn_rate);
-        let mut input = Input::<R>::idle();
-        let mut active = R::Mask::splat(false);
-        for lane in 0..R::LANES.min(self.setup.count - first) {
-            input.set_lane(lane, &actions.input(first + lane, turn_rate));
-            active.set_lane(lane, block.episodes.as_ref()[lane].phase == Phase::Running);
-        }
-        let mut decisions = R::each(|_| Decision::default());
-        for _ in 0..self.setup.task.frame_skip {
-            if !active.any() {
-                break;
-            }
-            let before = block.player;
-            let mut after = crate::tick::tick::<S, M, R, _>(&before, &input, &surface, &self.rules);
-            let mut run = block.run;
-            let verdict = run.judge(&before, &after, &self.setup.task, self.rules.max_damage, &surface);
-            (after.position.x, after.position.y, after.tile_x, after.tile_y) =
-                surface.wrap::<R>(after.position.x, after.position.y, after.tile_x, after.tile_y);
-            for lane in 0..R::LANES {
-                if active.lane(lane) {
-                    let d = &mut decisions.as_mut()[lane];
-                    d.ticks += 1;
-                    d.arrived = verdict.arrived.lane(lane);
-                    d.died = verdict.died.lane(lane);
-                    d.timed_out = verdict.timed_out.lane(lane);
-                } else {
-                    run.set_lane(lane, &block.run.lane(lane));
-                }
-            }
-            block.player = Player::select(active, &after, &before);
-            block.run = run;
-            let over = verdict.arrived.or(verdict.died).or(verdict.timed_out);
-            active = active.and(over.not());
-        }
-        decisions
-    }
-
-    /// Reward, flags, end of episode, autoreset and observation of one environment.
-    fn settle(
-        &self,
-        block: &mut Block<S, R>,
-        lane: usize,
-        env: usize,
-        decision: Decision,
-        row: &mut [f32],
-        ended: &mut Ended,
-    ) -> (f64, bool, bool) {
-        let (player, run) = (block.player.lane(lane), block.run.lane(lane));
-        let mut episode = block.episodes.as_ref()[lane];
-        if episode.phase != Phase::Running {
-            let flags = (episode.phase == Phase::Terminated, episode.phase == Phase::Truncated);
-            if self.setup.autoreset == Autoreset::NextStep {
-                self.go_on(block, lane, &episode, row);
-                return (0.0, false, false);
-            }
-            self.observe(&player, &run, &episode, row);
-            return (0.0, flags.0, flags.1);
-        }
-
-        let surface = self.setup.maps.surface::<R::Scalar>();
-        let distance = run.distance(&player, &surface).to_f64();
-        let weights = &self.setup.task.reward;
-        let seconds = f64::from(decision.ticks) * f64::from(self.rules.tick_ms) / 1000.0;
-        let bonus = if decision.arrived { weights.arrival } else { 0.0 };
-        let reward = weights.progress * (episode.distance - distance) + weights.time * seconds + bonus;
-        episode.distance = distance;
-        episode.total_reward += reward;
-        episode.length += 1;
-
-        let terminated = decision.arrived || decision.died;
-        let truncated = decision.timed_out;
-        if terminated {
-            episode.phase = Phase::Terminated;
-        } else if truncated {
-            episode.phase = Phase::Truncated;
-        }
-        block.episodes.as_mut()[lane] = episode;
-        self.observe(&player, &run, &episode, row);
-        if terminated || truncated {
-            ended.outcomes.push((env, self.outcome(&player, &run, &episode, decision)));
-            ended.observations.extend_from_slice(row);
-            if self.setup.autoreset == Autoreset::SameStep {
-                self.go_on(block, lane, &episode, row);
-            }
-        }
-        (reward, terminated, truncated)
-    }
-
-    /// Begins the environment's next episode and observes it.
-    fn go_on(&self, block: &mut Block<S, R>, lane: usize, old: &Episode, row: &mut [f32]) {
-        let course = CourseRequest::default();
-        let next = episode::begin::<S, _>(&self.setup, &self.rules, old.seed, old.episode + 1, &course)
-            .expect("a course drawn within a checked area can always begin");
-        block.put(lane, &next);
-        self.observe(&next.player, &next.run, &next.episode, row);
-    }
-
-    fn outcome(
-        &self,
-        p: &Player<S, R::Scalar>,
-        run: &Run<R::Scalar>,
-        e: &Episode,
-        decision: Decision,
-    ) -> Outcome {
-        let Status { distance, speed, time, outside, .. } = self.status_of(p, run, e);
-        let path = run.path.to_f64();
-        Outcome {
-            success: decision.arrived,
-            death: decision.died,
-            timeout: decision.timed_out,
-            time,
-            total_reward: e.total_reward,
-            length: e.length,
-            top_speed: run.top_speed.to_f64(),
-            mean_speed: path / time,
-            path,
-            damage: p.damage.get(R::Scalar::default()).to_f64(),
-            distance,
-            start_distance: e.start_distance,
-            speed,
-            outside,
-            terrain: i64::from(e.map),
-            seed: e.seed,
-            episode: e.episode,
-        }
     }
 }

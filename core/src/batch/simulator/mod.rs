@@ -11,7 +11,7 @@ pub use state::MAX_SPEED;
 
 use super::codec::{body_fields, read_body, write_body};
 use super::neighbourhood::Stand;
-use super::pool::{INLINE_BELOW, pool};
+use super::pool::{Crew, PIECE};
 use super::raw_input::RawInput;
 use super::snapshot;
 use super::stage::{Body, Stage};
@@ -27,11 +27,7 @@ use crate::scene::Scene;
 use crate::solids::Solids;
 use crate::terrain::Maps;
 use core::marker::PhantomData;
-use rayon::prelude::*;
 use std::sync::Arc;
-
-/// Players stepped together by one task of the pool, at least.
-const CHUNK: usize = 64;
 
 /// What every batch of bodies can do, whatever its scene and tier.
 pub trait Bodies: Send + Sync {
@@ -127,10 +123,10 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         Ok(())
     }
 
-    /// Players of a task of the pool: whole worlds, and whole blocks.
-    fn chunk(&self) -> usize {
+    /// Players that a thread takes at a time: whole worlds, and whole blocks.
+    fn piece(&self) -> usize {
         let whole = self.per_world * R::LANES;
-        whole * CHUNK.div_ceil(whole)
+        whole * PIECE.div_ceil(whole)
     }
 }
 
@@ -227,20 +223,12 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
             refuse!("inputs: expected {} rows, got {}", self.count, inputs.len());
         }
         inputs.iter().enumerate().try_for_each(|(i, input)| input.check(i))?;
-        let pool =
-            if self.threads == 1 || self.count < INLINE_BELOW { None } else { Some(pool(self.threads)?) };
-        let (per_world, chunk) = (self.per_world, self.chunk());
+        let crew = Crew::new(self.threads, self.count)?;
+        let (per_world, piece) = (self.per_world, self.piece());
         let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
         self.broken = true;
-        match pool {
-            None => play::<S, M, R>(&stage, per_world, &mut self.blocks, inputs, ticks),
-            Some(pool) => {
-                let chunks = self.blocks.par_chunks_mut(chunk / R::LANES).zip(inputs.par_chunks(chunk));
-                pool.install(|| {
-                    chunks.for_each(|(blocks, raw)| play::<S, M, R>(&stage, per_world, blocks, raw, ticks));
-                });
-            }
-        }
+        let pieces = self.blocks.chunks_mut(piece / R::LANES).zip(inputs.chunks(piece));
+        crew.share(pieces, |(blocks, raw)| play::<S, M, R>(&stage, per_world, blocks, raw, ticks));
         self.broken = false;
         Ok(())
     }

@@ -1,12 +1,13 @@
 //! 8 lanes: AVX2.
 
-use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use super::{check_rows, lane_access, load_square, operators, out_of_range, transpose, wrap_slowly};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
 /// 8 numbers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct F32x8(__m256);
 
 /// 8 integers.
@@ -83,7 +84,10 @@ impl Int for I32x8 {
         if n & (n - 1) == 0 {
             return Self(unsafe { _mm256_and_si256(self.0, _mm256_set1_epi32(n - 1)) });
         }
-        Self(wrap_lanes!(self.0, 8, __m256i, n))
+        // A register is as large as the array of its lanes, and both are plain bits.
+        let mut lanes = unsafe { core::mem::transmute::<__m256i, [i32; 8]>(self.0) };
+        wrap_slowly(&mut lanes, n);
+        Self(unsafe { core::mem::transmute::<[i32; 8], __m256i>(lanes) })
     }
     #[inline(always)]
     fn is_odd(self) -> Mask8 {
@@ -118,12 +122,28 @@ impl Real for F32x8 {
         Self(unsafe { _mm256_set1_ps(x) })
     }
     #[inline(always)]
+    fn every<T: Copy + Send + Sync>(x: T) -> [T; 8] {
+        [x; 8]
+    }
+    #[inline(always)]
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 8] {
         core::array::from_fn(f)
     }
     #[inline(always)]
     fn pack(each: &[f32; 8]) -> Self {
         Self(unsafe { _mm256_loadu_ps(each.as_ptr()) })
+    }
+    #[inline(always)]
+    fn unpack(self) -> [f32; 8] {
+        unsafe { core::mem::transmute(self.0) }
+    }
+    #[inline(always)]
+    fn pack_int(each: &[i32; 8]) -> I32x8 {
+        I32x8(unsafe { _mm256_loadu_si256(each.as_ptr().cast()) })
+    }
+    #[inline(always)]
+    fn unpack_int(i: I32x8) -> [i32; 8] {
+        unsafe { core::mem::transmute(i.0) }
     }
     lane_access!(f32, 8, __m256);
     #[inline(always)]
@@ -183,7 +203,23 @@ impl Real for F32x8 {
         }
     }
     #[inline(always)]
-    fn gather_pair(table: &[f32], index: I32x8) -> (Self, Self) {
+    fn write_rows(
+        columns: &[Self; 8],
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    ) {
+        check_rows(8, count, rows.len(), stride, at, players);
+        // SAFETY: as above, and the rows were checked.
+        unsafe {
+            let columns = core::mem::transmute::<&[Self; 8], &[__m256; 8]>(columns);
+            transpose::write_8(columns, count, rows.as_mut_ptr().add(at), stride, players);
+        }
+    }
+    #[inline(always)]
+    fn gather_square(table: &[[f32; 2]], index: I32x8) -> [Self; 4] {
         let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
         unsafe {
             // Unsigned, so that a negative index is a large one.
@@ -191,8 +227,22 @@ impl Real for F32x8 {
             if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
                 out_of_range(table.len());
             }
-            let (first, second) = load_pairs(table, &core::mem::transmute::<__m256i, [i32; 8]>(index.0));
-            (Self(first), Self(second))
+            // Two indices to a word: half as many moves out of the register.
+            let [i0, i2, i4, i6] = core::mem::transmute::<__m256i, [u64; 4]>(index.0);
+            let a = _mm256_set_m128(load_square(table, i4), load_square(table, i0));
+            let b = _mm256_set_m128(load_square(table, i4 >> 32), load_square(table, i0 >> 32));
+            let c = _mm256_set_m128(load_square(table, i6), load_square(table, i2));
+            let d = _mm256_set_m128(load_square(table, i6 >> 32), load_square(table, i2 >> 32));
+            let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+            let (ef, gh) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+            let (ab, cd) = (_mm256_castps_pd(ab), _mm256_castps_pd(cd));
+            let (ef, gh) = (_mm256_castps_pd(ef), _mm256_castps_pd(gh));
+            [
+                Self(_mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd))),
+                Self(_mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd))),
+                Self(_mm256_castpd_ps(_mm256_unpacklo_pd(ef, gh))),
+                Self(_mm256_castpd_ps(_mm256_unpackhi_pd(ef, gh))),
+            ]
         }
     }
 }

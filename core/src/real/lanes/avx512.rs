@@ -1,22 +1,27 @@
 //! 16 lanes: AVX-512.
 
-use super::{lane_access, load_pairs, operators, out_of_range, wrap_lanes};
+use super::{check_rows, lane_access, load_square, operators, out_of_range, transpose, wrap_slowly};
 use crate::real::{Int, Mask, Real, Work};
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
-/// Two halves of a register.
+/// Four places of a table, each with its successor, in one register.
 ///
 /// # Safety
-/// The processor has AVX-512.
+/// The processor has AVX-512, and all these places lie in the table.
 #[inline(always)]
-unsafe fn join(low: __m256, high: __m256) -> __m512 {
+unsafe fn join(index: [u64; 4], table: &[[f32; 2]]) -> __m512 {
     // SAFETY: the caller's promise.
-    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high) }
+    unsafe {
+        let low = _mm256_set_m128(load_square(table, index[1]), load_square(table, index[0]));
+        let high = _mm256_set_m128(load_square(table, index[3]), load_square(table, index[2]));
+        _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high)
+    }
 }
 
 /// 16 numbers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct F32x16(__m512);
 
 /// 16 integers.
@@ -91,7 +96,10 @@ impl Int for I32x16 {
         if n & (n - 1) == 0 {
             return Self(unsafe { _mm512_and_si512(self.0, _mm512_set1_epi32(n - 1)) });
         }
-        Self(wrap_lanes!(self.0, 16, __m512i, n))
+        // A register is as large as the array of its lanes, and both are plain bits.
+        let mut lanes = unsafe { core::mem::transmute::<__m512i, [i32; 16]>(self.0) };
+        wrap_slowly(&mut lanes, n);
+        Self(unsafe { core::mem::transmute::<[i32; 16], __m512i>(lanes) })
     }
     #[inline(always)]
     fn is_odd(self) -> Mask16 {
@@ -129,12 +137,28 @@ impl Real for F32x16 {
         Self(unsafe { _mm512_set1_ps(x) })
     }
     #[inline(always)]
+    fn every<T: Copy + Send + Sync>(x: T) -> [T; 16] {
+        [x; 16]
+    }
+    #[inline(always)]
     fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 16] {
         core::array::from_fn(f)
     }
     #[inline(always)]
     fn pack(each: &[f32; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(each.as_ptr()) })
+    }
+    #[inline(always)]
+    fn unpack(self) -> [f32; 16] {
+        unsafe { core::mem::transmute(self.0) }
+    }
+    #[inline(always)]
+    fn pack_int(each: &[i32; 16]) -> I32x16 {
+        I32x16(unsafe { _mm512_loadu_si512(each.as_ptr().cast()) })
+    }
+    #[inline(always)]
+    fn unpack_int(i: I32x16) -> [i32; 16] {
+        unsafe { core::mem::transmute(i.0) }
     }
     lane_access!(f32, 16, __m512);
     #[inline(always)]
@@ -193,16 +217,45 @@ impl Real for F32x16 {
         }
     }
     #[inline(always)]
-    fn gather_pair(table: &[f32], index: I32x16) -> (Self, Self) {
+    fn write_rows(
+        columns: &[Self; 16],
+        count: usize,
+        rows: &mut [f32],
+        stride: usize,
+        at: usize,
+        players: usize,
+    ) {
+        check_rows(16, count, rows.len(), stride, at, players);
+        // SAFETY: as above, and the rows were checked.
+        unsafe {
+            let columns = core::mem::transmute::<&[Self; 16], &[__m512; 16]>(columns);
+            transpose::write_16(columns, count, rows.as_mut_ptr().add(at), stride, players);
+        }
+    }
+    #[inline(always)]
+    fn gather_square(table: &[[f32; 2]], index: I32x16) -> [Self; 4] {
         let last = u32::try_from(table.len().saturating_sub(1)).unwrap_or(u32::MAX).cast_signed();
         unsafe {
             // Unsigned, so that a negative index is a large one.
             if _mm512_cmpge_epu32_mask(index.0, _mm512_set1_epi32(last)) != 0 {
                 out_of_range(table.len());
             }
-            let [low, high] = core::mem::transmute::<__m512i, [[i32; 8]; 2]>(index.0);
-            let (low, high) = (load_pairs(table, &low), load_pairs(table, &high));
-            (Self(join(low.0, high.0)), Self(join(low.1, high.1)))
+            // Two indices to a word: half as many moves out of the register.
+            let [i0, i2, i4, i6, i8, ia, ic, ie] = core::mem::transmute::<__m512i, [u64; 8]>(index.0);
+            let a = join([i0, i4, i8, ic], table);
+            let b = join([i0 >> 32, i4 >> 32, i8 >> 32, ic >> 32], table);
+            let c = join([i2, i6, ia, ie], table);
+            let d = join([i2 >> 32, i6 >> 32, ia >> 32, ie >> 32], table);
+            let (ab, cd) = (_mm512_unpacklo_ps(a, b), _mm512_unpacklo_ps(c, d));
+            let (ef, gh) = (_mm512_unpackhi_ps(a, b), _mm512_unpackhi_ps(c, d));
+            let (ab, cd) = (_mm512_castps_pd(ab), _mm512_castps_pd(cd));
+            let (ef, gh) = (_mm512_castps_pd(ef), _mm512_castps_pd(gh));
+            [
+                Self(_mm512_castpd_ps(_mm512_unpacklo_pd(ab, cd))),
+                Self(_mm512_castpd_ps(_mm512_unpackhi_pd(ab, cd))),
+                Self(_mm512_castpd_ps(_mm512_unpacklo_pd(ef, gh))),
+                Self(_mm512_castpd_ps(_mm512_unpackhi_pd(ef, gh))),
+            ]
         }
     }
 }

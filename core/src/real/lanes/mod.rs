@@ -19,6 +19,8 @@ mod avx2;
 mod avx512;
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;
+#[cfg(target_arch = "x86_64")]
+mod transpose;
 mod width;
 
 #[cfg(target_arch = "x86_64")]
@@ -37,28 +39,26 @@ fn out_of_range(len: usize) -> ! {
     panic!("an index of a gather is negative, or not below the table's length of {len}")
 }
 
-/// `table[index]` and `table[index + 1]` of 8 lanes by plain loads of 8 bytes, half as many as two
-/// gather instructions make; on AMD, whose gathers are microcode, that was the longest wait of a march.
+/// Four places of a table of pairs, and the two numbers before and after each one's middle, as one load
+/// of 16 bytes. Plain loads: gather instructions are microcode on AMD, and were the longest wait of a
+/// march.
 ///
 /// # Safety
-/// The processor has AVX2, and for every index both places lie in the table.
+/// For the index both places lie in the table.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-unsafe fn load_pairs(table: &[f32], index: &[i32; 8]) -> (__m256, __m256) {
-    // SAFETY: the caller's promise. The loads need no alignment.
-    unsafe {
-        let at = |lane: usize| table.as_ptr().add(index[lane] as usize).cast::<f64>();
-        let x = _mm256_set_m128d(
-            _mm_loadh_pd(_mm_load_sd(at(4)), at(5)),
-            _mm_loadh_pd(_mm_load_sd(at(0)), at(1)),
-        );
-        let y = _mm256_set_m128d(
-            _mm_loadh_pd(_mm_load_sd(at(6)), at(7)),
-            _mm_loadh_pd(_mm_load_sd(at(2)), at(3)),
-        );
-        let (x, y) = (_mm256_castpd_ps(x), _mm256_castpd_ps(y));
-        (_mm256_shuffle_ps::<0b10_00_10_00>(x, y), _mm256_shuffle_ps::<0b11_01_11_01>(x, y))
-    }
+unsafe fn load_square(table: &[[f32; 2]], index: u64) -> __m128 {
+    // SAFETY: the caller's promise. The load needs no alignment.
+    unsafe { _mm_loadu_ps(table.as_ptr().add((index & 0xffff_ffff) as usize).cast()) }
+}
+
+/// What [`Real::write_rows`](crate::real::Real::write_rows) promises to panic about.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn check_rows(lanes: usize, count: usize, len: usize, stride: usize, at: usize, players: usize) {
+    let inside = players == 0 || (players - 1).saturating_mul(stride).saturating_add(stride) <= len;
+    let fits = count <= lanes && players <= lanes && at.saturating_add(count) <= stride && inside;
+    assert!(fits, "{count} columns at {at} of {players} rows of {stride} do not fit {len} numbers");
 }
 
 /// The arithmetic operators of a lane type, each one intrinsic.
@@ -98,16 +98,13 @@ macro_rules! lane_access {
 }
 use lane_access;
 
-/// An integer modulo `n > 0`, lane by lane: only maps whose sides are no powers of two need it.
-macro_rules! wrap_lanes {
-    ($value:expr, $count:expr, $register:ty, $n:expr) => {{
-        // SAFETY: a register is as large as the array of its lanes, and both are plain bits.
-        let mut lanes = unsafe { core::mem::transmute::<$register, [i32; $count]>($value) };
-        for lane in &mut lanes {
-            *lane = lane.rem_euclid($n);
-        }
-        // SAFETY: as above.
-        unsafe { core::mem::transmute::<[i32; $count], $register>(lanes) }
-    }};
+/// Integers modulo `n > 0`, for maps whose sides are no powers of two. Out of line: within a march its
+/// divisions would take the registers of the others.
+#[cfg(target_arch = "x86_64")]
+#[cold]
+#[inline(never)]
+fn wrap_slowly(lanes: &mut [i32], n: i32) {
+    for lane in lanes {
+        *lane = lane.rem_euclid(n);
+    }
 }
-use wrap_lanes;

@@ -94,7 +94,7 @@ impl<R: Real<Scalar = f32>> Operands<R> {
 }
 
 struct Results<R: Real> {
-    reals: [R; 20],
+    reals: [R; 22],
     ints: [R::Int; 12],
     masks: [R::Mask; 10],
     any: bool,
@@ -104,6 +104,7 @@ struct Results<R: Real> {
 struct All<'a, R: Real> {
     on: &'a Operands<R>,
     table: &'a [f32],
+    pairs: &'a [[f32; 2]],
 }
 
 impl<R: Real<Scalar = f32>> Work for All<'_, R> {
@@ -114,6 +115,7 @@ impl<R: Real<Scalar = f32>> Work for All<'_, R> {
         let Operands { a, b, i, j, mask, other, index } = *self.on;
         let (sin, cos) = a.sin_cos();
         let unit = V3::new(a, b, a * b);
+        let [a0, a1, a2, a3] = R::gather_square(self.pairs, index);
         Results {
             reals: [
                 a + b,
@@ -128,8 +130,10 @@ impl<R: Real<Scalar = f32>> Work for All<'_, R> {
                 R::select(mask, a, b),
                 R::from_int(i),
                 R::gather(self.table, index),
-                R::gather_pair(self.table, index).0,
-                R::gather_pair(self.table, index).1,
+                a0,
+                a1,
+                a2,
+                a3,
                 R::lit(0.1),
                 R::splat(3.5),
                 sin,
@@ -191,13 +195,16 @@ fn operands<R: Real<Scalar = f32>>(round: u64) -> Operands<R> {
 
 fn agrees_with_scalars<R: Real<Scalar = f32>>() {
     let table: Vec<f32> = (0..TABLE as u64).map(|k| number(1 << 40 | k)).collect();
+    let pairs: Vec<[f32; 2]> =
+        (0..TABLE as u64).map(|k| [number(1 << 41 | k), number(1 << 42 | k)]).collect();
+    let (table, pairs) = (&table[..], &pairs[..]);
     for round in 0..ROUNDS {
         let on = operands::<R>(round);
-        let all = R::enter(All { on: &on, table: &table });
+        let all = R::enter(All { on: &on, table, pairs });
         let mut any = false;
         for lane in 0..R::LANES {
             let one = on.lane(lane);
-            let expected = All { on: &one, table: &table }.run();
+            let expected = All { on: &one, table, pairs }.run();
             let numbers =
                 format!("lane {lane} of {} with {one:?}", R::LANES, one = (one.a, one.b, one.i, one.j));
             for (k, (got, wanted)) in all.reals.iter().zip(expected.reals).enumerate() {
@@ -221,8 +228,8 @@ fn gather_refuses<R: Real<Scalar = f32>>() {
             let mut index = R::Int::splat(4);
             index.set_lane(lane, bad);
             let caught = catch_unwind(AssertUnwindSafe(|| R::gather(&[0.0; 5], index)));
-            let pair = catch_unwind(AssertUnwindSafe(|| R::gather_pair(&[0.0; 6], index)));
-            assert!(pair.is_err(), "a pair at {bad} in lane {lane} of {}", R::LANES);
+            let square = catch_unwind(AssertUnwindSafe(|| R::gather_square(&[[0.0; 2]; 6], index)));
+            assert!(square.is_err(), "a square at {bad} in lane {lane} of {}", R::LANES);
             assert!(caught.is_err(), "index {bad} in lane {lane} of {}", R::LANES);
         }
     }

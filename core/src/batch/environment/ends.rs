@@ -1,0 +1,118 @@
+//! What is rare in a step, player by player: ends and beginnings of episodes; and what is said of each.
+
+use super::block::Block;
+use super::decision::Decision;
+use super::episode;
+use super::*;
+use crate::terrain::Surface;
+
+impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
+    /// Begins the next episode of an environment.
+    fn go_on(&self, block: &mut Block<S, R>, lane: usize) {
+        let old = block.episodes.lane(lane);
+        let course = CourseRequest::default();
+        let next = episode::begin::<S, _>(&self.setup, &self.rules, old.seed, old.episode + 1, &course)
+            .expect("a course drawn within a checked area can always begin");
+        block.put(lane, &next, &self.setup.maps);
+    }
+
+    /// Begins the next episode of those whose last one was over before this step.
+    #[inline(never)]
+    pub(super) fn go_on_where_over(&self, block: &mut Block<S, R>, decision: &Decision<R>, players: usize) {
+        for lane in (0..players).filter(|&lane| !decision.played.lane(lane)) {
+            self.go_on(block, lane);
+        }
+    }
+
+    /// Reports the episodes that ended in this step; where the next ones begin in it, begins them and
+    /// writes their observations.
+    #[inline(never)]
+    pub(super) fn report_ends(
+        &self,
+        block: &mut Block<S, R>,
+        first: usize,
+        decision: &Decision<R>,
+        rows: &mut [f32],
+        report: &mut Report,
+    ) {
+        for (lane, row) in rows.chunks_exact_mut(self.row).enumerate() {
+            if !decision.over().lane(lane) {
+                continue;
+            }
+            report.outcomes.push((first + lane, self.outcome(block, lane, decision)));
+            report.observations.extend_from_slice(row);
+            if self.setup.autoreset == Autoreset::SameStep {
+                self.go_on(block, lane);
+                let (player, run) = (block.player.lane(lane), block.run.lane(lane));
+                let surface = self.setup.maps.surface();
+                self.observe::<R::Scalar>(&player, &run, &surface, block.lowest.lane(lane), row, 1);
+            }
+        }
+    }
+
+    fn outcome(&self, block: &Block<S, R>, lane: usize, decision: &Decision<R>) -> Outcome {
+        let (player, run, e) = (block.player.lane(lane), block.run.lane(lane), block.episodes.lane(lane));
+        let Status { distance, speed, time, outside, .. } = self.status_of(&player, &run, &e);
+        let path = run.path.to_f64();
+        Outcome {
+            success: decision.arrived.lane(lane),
+            death: decision.died.lane(lane),
+            timeout: decision.timed_out.lane(lane),
+            time,
+            total_reward: e.total_reward,
+            length: e.length,
+            top_speed: run.top_speed.to_f64(),
+            mean_speed: path / time,
+            path,
+            damage: player.damage.get(R::Scalar::default()).to_f64(),
+            distance,
+            start_distance: e.start_distance,
+            speed,
+            outside,
+            terrain: i64::from(e.map),
+            seed: e.seed,
+            episode: e.episode,
+        }
+    }
+
+    /// What is reported of an environment at any time.
+    pub(super) fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, e: &Episode) -> Status {
+        let surface = self.setup.maps.surface::<R::Scalar>();
+        let terrain = e.map as usize;
+        Status {
+            distance: run.distance(p, &surface).to_f64(),
+            speed: p.velocity.length().to_f64(),
+            time: run.seconds(self.rules.tick_ms),
+            outside: !self.setup.areas[terrain].contains(place(&self.setup.maps, p).truncate().into()),
+            terrain,
+        }
+    }
+
+    /// The same of the first players of a block, as columns from `at` on.
+    #[inline(always)]
+    pub(super) fn write_status(
+        &self,
+        block: &Block<S, R>,
+        surface: &Surface<'_, R::Scalar>,
+        (at, players): (usize, usize),
+        status: &mut StatusOutput<'_>,
+    ) {
+        let (p, run) = (&block.player, &block.run);
+        let maps = &self.setup.maps;
+        let distances = run.distance(p, surface).unpack();
+        let speeds = p.velocity.length().unpack();
+        let (x, y) = (p.position.x.unpack(), p.position.y.unpack());
+        let (tile_x, tile_y, ticks) =
+            (R::unpack_int(p.tile_x), R::unpack_int(p.tile_y), R::unpack_int(run.ticks));
+        let tick_ms = f64::from(self.rules.tick_ms);
+        for lane in 0..players {
+            status.distance[at + lane] = distances.as_ref()[lane].to_f64();
+            status.speed[at + lane] = speeds.as_ref()[lane].to_f64();
+            status.time[at + lane] = f64::from(ticks.as_ref()[lane]) * tick_ms / 1000.0;
+            let local = DVec3::new(x.as_ref()[lane].to_f64(), y.as_ref()[lane].to_f64(), 0.0);
+            let world = maps.to_world(local, IVec2::new(tile_x.as_ref()[lane], tile_y.as_ref()[lane]));
+            let area = &self.setup.areas[block.episodes.map.as_ref()[lane] as usize];
+            status.outside[at + lane] = !area.contains(world.truncate().into());
+        }
+    }
+}
