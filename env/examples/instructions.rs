@@ -9,7 +9,8 @@
 //! the extension: compiled once, with the same features.
 
 use discjump_core::batch::{
-    Autoreset, Bodies, Environments, RawInput, ResetRequest, SimulatorSetup, SkiEnvironments, StepOutput,
+    Autoreset, Bodies, Environments, RawInput, ResetRequest, Rewards, SimulatorSetup, SkiEnvironments,
+    StepOutput,
 };
 use discjump_core::observe::SkiObservation;
 use discjump_core::random::{Purpose, bits, uniform};
@@ -126,6 +127,7 @@ fn steps(calls: usize) -> String {
             .expect("a valid fan"),
         autoreset: Autoreset::NextStep,
         threads: Some(1),
+        lanes: None,
     };
     let mut batch: Box<dyn Environments> = setup.build().expect("a valid setup");
     let mut observations = vec![0.0; COUNT * batch.observation_size()];
@@ -139,9 +141,10 @@ fn steps(calls: usize) -> String {
     for actions in actions.chunks_exact(COUNT * ACTION_SIZE).cycle().take(calls) {
         let output = StepOutput {
             observations: &mut observations,
-            rewards: &mut rewards,
+            rewards: Rewards::F64(&mut rewards),
             terminated: &mut terminated,
             truncated: &mut truncated,
+            status: None,
         };
         batch.step(Actions::Int8(actions), output).expect("valid actions");
     }

@@ -3,7 +3,7 @@
 use crate::errors::refused;
 use crate::simulator::{INPUT_BYTES, Simulator, read_input};
 use crate::ski::SkiBatch;
-use discjump_core::batch::{Environments, RawInput, ResetRequest, StepOutput};
+use discjump_core::batch::{Environments, RawInput, ResetRequest, Rewards, StepOutput};
 use discjump_core::task::{ACTION_SIZE, Actions};
 use numpy::{PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -32,9 +32,10 @@ impl Outputs {
     fn lend(&mut self) -> StepOutput<'_> {
         StepOutput {
             observations: &mut self.observations,
-            rewards: &mut self.rewards,
+            rewards: Rewards::F64(&mut self.rewards),
             terminated: &mut self.terminated,
             truncated: &mut self.truncated,
+            status: None,
         }
     }
 }

@@ -127,18 +127,6 @@ pub trait Environments: Send + Sync {
     fn state(&self) -> Vec<u8>;
     /// Bytes that one environment takes in memory, beside its observation row.
     fn bytes_per_environment(&self) -> usize;
-    /// How many environments are stepped side by side, in one instruction. No bit depends on it.
-    fn lanes(&self) -> usize {
-        1
-    }
-    /// Starts a clock on the parts of a step, from zero, or stops it. It takes time itself.
-    fn time_parts(&mut self, on: bool) {
-        let _ = on;
-    }
-    /// Seconds that each part took since the clock started, summed over threads.
-    fn parts(&self) -> Vec<(&'static str, f64)> {
-        Vec::new()
-    }
     /// Everything, as bytes that [`Environments::restore`] takes.
     fn snapshot(&self) -> Vec<u8>;
     /// Goes back to a snapshot.
