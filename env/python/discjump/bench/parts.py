@@ -8,6 +8,7 @@ import numpy as np
 
 from discjump._native import time_environments
 from discjump.bench.clock import Effort, Ready, Timed, Times, interleave
+from discjump.bench.figure import short
 from discjump.bench.ways import Agents, Players, Vector, random_actions
 
 if TYPE_CHECKING:
@@ -118,11 +119,11 @@ def draw(rows: list[dict[str, Any]], path: Path) -> None:
     """The picture as a PNG: on the left each part's share of the time, on the right ns of large batches."""
     from matplotlib.figure import Figure  # this command alone needs it
 
-    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(12.0, 4.8), layout="constrained")
     left, right = figure.subplots(1, 2)
     _bars(left, rows, [100.0 / sum(row["parts_ns"].values()) for row in rows])
     for place, row in enumerate(rows):
-        left.text(place, 101.0, f"{row['vector_ns']:,.0f} ns", ha="center", fontsize=8.5)
+        left.text(place, 101.0, f"{short(row['vector_ns'])} ns", ha="center", fontsize=8)
     left.set_ylabel("share of VectorEnv.step, %")
     large = [row for row in rows if row["num_envs"] >= LARGE] or rows
     _bars(right, large, [1.0] * len(large))
