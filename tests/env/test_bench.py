@@ -10,8 +10,8 @@ import pytest
 from click.testing import CliRunner
 
 from discjump._native import time_environments, time_players, time_resets
-from discjump.bench import peers
-from discjump.bench.clock import Effort, Ready, Timed, Unavailable, interleave
+from discjump.bench import figure, peers
+from discjump.bench.clock import Effort, Ready, Timed, Times, Unavailable, interleave
 from discjump.bench.ways import Agents, Players, Vector, random_actions
 from discjump.cli import main
 from discjump.simulator import Simulator
@@ -127,6 +127,27 @@ def test_cases_take_turns_and_calls_fill_a_repeat() -> None:
     np.testing.assert_array_equal(timed.rate, [5.0] * 3)
     assert free.asked[-3:] == [50, 50, 50]
     assert fixed.asked == [1, 7, 7, 7]
+
+
+def test_figures_are_reckoned_from_seconds_a_call() -> None:
+    """By hand: 10 units in 2 s or in 4 s."""
+    fast, slow = Pretended(None), Pretended(None)
+    times: Times = {
+        fast: Timed(np.array([2.0]), 10, 0, 0),
+        slow: Timed(np.array([4.0]), 10, 0, 0),
+    }
+
+    def reached(made: figure.Figure) -> float:
+        value: float = figure.row(made, times)["median"]
+        return value
+
+    assert reached(figure.rate("", slow)) == 2.5e-6
+    assert reached(figure.ratio("", (slow, fast), 2.0, at_least=False)) == 2.0
+    assert reached(figure.call("", slow)) == 4e6
+    assert reached(figure.beside("", slow, fast, per_unit=False)) == 2e6
+    assert reached(figure.beside("", slow, fast, per_unit=True)) == 2e5
+    times[slow] = Unavailable("gone")
+    assert figure.row(figure.ratio("", (slow, fast), 2.0, at_least=False), times)["missing"] == "gone"
 
 
 def test_rust_and_gymnasium_play_the_same_batch() -> None:

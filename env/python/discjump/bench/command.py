@@ -89,6 +89,7 @@ def bench(
     if picture is not None:
         require_matplotlib("discjump bench --picture")
     threads = threads or min(os.cpu_count() or 1, 256)
+    load = round(os.getloadavg()[0], 1) if hasattr(os, "getloadavg") else None
     effort = QUICK if quick else Effort(repeats, seconds)
     made: dict[str, Any] = {}
     if asked:
@@ -109,10 +110,13 @@ def bench(
     if not made:
         made = {"frame_skip": frame_skip, "rows": _by_size(sizes, frame_skip, threads, effort)}
         click.echo(table(made["rows"], frame_skip))
-    here = {**machine(), "threads": threads, "lanes": _lanes()}
+    here = {**machine(), "threads": threads, "lanes": _lanes(), "load": load}
     packages = versions("discjump", "numpy", "gymnasium", "stable-baselines3", "envpool", "torch")
     save(out, {"machine": here, "versions": packages, "effort": effort._asdict(), **made})
-    click.echo(f"{here['processor']}, {here['cores']} cores, {threads} threads, lanes {here['lanes']}")
+    click.echo(
+        f"{here['processor']}, {here['cores']} cores, {threads} threads, lanes {here['lanes']}, "
+        f"load when it began {load}"
+    )
     click.echo("\n".join(str(path) for path in (out, picture) if path is not None))
 
 
