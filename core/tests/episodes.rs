@@ -4,9 +4,11 @@
 
 mod common;
 
-use common::envs::{Envs, ski};
-use discjump_core::batch::{Autoreset, ResetRequest, SkiEnvironments};
-use discjump_core::task::{CourseRequest, Outcome};
+use common::envs::{Envs, bits, ski};
+use discjump_core::batch::{
+    Autoreset, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
+};
+use discjump_core::task::{Actions, CourseRequest, Outcome};
 use glam::DVec2;
 
 const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
@@ -211,4 +213,62 @@ fn the_three_autoreset_modes_play_the_same_episodes() {
             }
         }
     }
+}
+
+/// Also across ends and new beginnings within the step: the columns show what runs after it.
+#[test]
+fn columns_of_a_step_say_what_the_batch_says_after_it() {
+    let [mut twin, mut envs] = [(), ()].map(|()| {
+        let mut setup = ski(5, "authentic");
+        setup.task.time_limit = 30;
+        Envs::seeded(setup, &[1, 2, 3, 4, 5])
+    });
+    let (mut narrow, [mut distance, mut speed, mut time]) = ([0.0f32; 5], [[0.0; 5]; 3]);
+    let (mut outside, mut ends) = ([false; 5], 0);
+    for _ in 0..100 {
+        let actions = twin.actions();
+        twin.step(&actions);
+        let output = StepOutput {
+            observations: &mut envs.observations,
+            rewards: Rewards::F32(&mut narrow),
+            terminated: &mut envs.terminated,
+            truncated: &mut envs.truncated,
+            status: Some(StatusOutput {
+                distance: &mut distance,
+                speed: &mut speed,
+                time: &mut time,
+                outside: &mut outside,
+            }),
+        };
+        envs.batch.step(Actions::Int8(&actions), output).unwrap();
+        ends += envs.batch.finished().len();
+        let rounded: Vec<u32> = twin.rewards.iter().map(|&reward| (reward as f32).to_bits()).collect();
+        assert_eq!(narrow.map(f32::to_bits).to_vec(), rounded);
+        for (i, status) in twin.batch.status().iter().enumerate() {
+            let columns = [distance[i], speed[i], time[i]].map(f64::to_bits);
+            assert_eq!(columns, [status.distance, status.speed, status.time].map(f64::to_bits));
+            assert_eq!(outside[i], status.outside);
+        }
+    }
+    assert!(ends > 10, "{ends} ends");
+}
+
+#[test]
+fn a_reset_of_some_leaves_observed_rows_alone() {
+    let [mut envs, mut twin] = [(), ()].map(|()| Envs::seeded(ski(4, "authentic"), &[1, 2, 3, 4]));
+    (0..20).for_each(|_| envs.play());
+    (0..20).for_each(|_| twin.play());
+    let mask = vec![false, true, false, true];
+    let request = ResetRequest { mask, others_observed: true, ..ResetRequest::default() };
+    let row = envs.batch.observation_size();
+    envs.observations[..row].fill(7.0);
+    envs.batch.reset(&request, &mut envs.observations).unwrap();
+    let all = ResetRequest { others_observed: false, ..request };
+    twin.batch.reset(&all, &mut twin.observations).unwrap();
+    assert_eq!(envs.observations[..row], vec![7.0; row]);
+    for env in 1..4 {
+        assert_eq!(bits(envs.row(env)), bits(twin.row(env)), "environment {env}");
+    }
+    let one_by_one: Vec<Status> = (0..4).map(|env| envs.batch.status_of(env)).collect();
+    assert_eq!(one_by_one, twin.batch.status());
 }

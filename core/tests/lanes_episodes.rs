@@ -82,13 +82,12 @@ impl Played {
         }
     }
 
-    /// All of it, NaN-safe.
-    fn all(&self) -> (Vec<u32>, Vec<u64>, &[Vec<bool>; 2], String, Vec<u32>, String) {
-        let bits = |numbers: &[f32]| numbers.iter().map(|x| x.to_bits()).collect();
-        let rewards = self.rewards.iter().map(|x| x.to_bits()).collect();
-        let finished = format!("{:?}", self.batch.finished());
-        let last = bits(self.batch.final_observations());
-        (bits(&self.observations), rewards, &self.flags, finished, last, self.batch.digest())
+    /// All of it, as bytes and texts that compare bit by bit.
+    fn all(&self) -> (Vec<u8>, String) {
+        let numbers = self.observations.iter().chain(self.batch.final_observations());
+        let mut bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
+        bytes.extend(self.rewards.iter().flat_map(|x| x.to_le_bytes()));
+        (bytes, format!("{:?} {:?} {}", self.flags, self.batch.finished(), self.batch.digest()))
     }
 }
 

@@ -4,7 +4,8 @@
 //! or to a view of it any more, which its own reference count says, since every view keeps its owner
 //! alive. So nothing is copied, and nothing that a user stored ever changes.
 
-use numpy::{Element, PyArray, PyArray1, PyReadonlyArray2};
+use numpy::ndarray::{Dimension, Ix1};
+use numpy::{Element, PyArray, PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyList};
@@ -18,14 +19,14 @@ pub struct Buffers<T, D> {
 /// Beyond this many the oldest is left to Python: a user who stores every observation owns them all.
 const KEPT: usize = 4;
 
-impl<T: Element + Clone, D: numpy::ndarray::Dimension> Buffers<T, D> {
+impl<T: Element + Clone, D: Dimension> Buffers<T, D> {
     /// Buffers of a shape; none is made yet.
     pub fn new(shape: D) -> Self {
         Self { shape, lent: Vec::new() }
     }
 
     /// A buffer that nobody else holds. What it contains is unspecified (zeros when new).
-    pub fn take<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyArray<T, D>> {
+    pub fn take<'py>(&mut self, py: Python<'py>) -> Lent<'py, T, D> {
         let free = self.lent.iter().position(|array| reference_count(array) == 1);
         let array = match free {
             Some(at) => self.lent.remove(at),
@@ -35,7 +36,31 @@ impl<T: Element + Clone, D: numpy::ndarray::Dimension> Buffers<T, D> {
             self.lent.remove(0);
         }
         self.lent.push(array.clone_ref(py));
-        array.into_bound(py)
+        Lent(array.into_bound(py))
+    }
+
+    /// The same, every entry `value`.
+    pub fn take_filled<'py>(&mut self, py: Python<'py>, value: T) -> Lent<'py, T, D> {
+        let mut array = self.take(py);
+        array.contents().fill(value);
+        array
+    }
+}
+
+/// A buffer on its way out: until it is handed over, Python code cannot reach it.
+pub struct Lent<'py, T, D>(Bound<'py, PyArray<T, D>>);
+
+impl<'py, T: Element, D: Dimension> Lent<'py, T, D> {
+    /// Its entries, row by row.
+    pub fn contents(&mut self) -> &mut [T] {
+        // SAFETY: `take` found it contiguous and without another holder but the list it is kept in, and it
+        // is not handed over yet. rust-numpy's own check costs more than a short step.
+        unsafe { self.0.as_slice_mut().expect("buffers are contiguous") }
+    }
+
+    /// Hands it over.
+    pub fn hand_over(self) -> Bound<'py, PyArray<T, D>> {
+        self.0
     }
 }
 
@@ -113,8 +138,8 @@ pub fn as_float64<'py>(
     numpy.call_method1("require", (array, "float64", ["C_CONTIGUOUS", "ALIGNED"]))
 }
 
-/// A boolean output buffer as Rust sees it.
-pub type Flags = Buffers<bool, numpy::ndarray::Ix1>;
+/// Buffers of one entry per environment.
+pub type Column<T> = Buffers<T, Ix1>;
 
 /// A one-dimensional array from a vector.
 pub fn array1<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyArray1<T>> {

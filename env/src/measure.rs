@@ -40,11 +40,8 @@ impl Outputs {
     }
 }
 
-/// Seconds, environments side by side, and seconds of each part.
-type Timed = (f64, usize, Vec<(&'static str, f64)>);
-
-/// Seconds of `calls` steps with the actions (k, num_envs, 5) in turn; how many environments were side by
-/// side; with `parts` the seconds of each part of a step, summed over threads.
+/// Seconds of `calls` steps with the actions (k, num_envs, 5) in turn, and with `parts` of each part of them,
+/// summed over threads. What the batch keeps for Python does not follow: it is for nothing else afterwards.
 #[pyfunction]
 #[pyo3(signature = (batch, actions, calls, *, parts=false))]
 pub fn time_environments(
@@ -53,7 +50,7 @@ pub fn time_environments(
     actions: PyReadonlyArray3<'_, i8>,
     calls: usize,
     parts: bool,
-) -> PyResult<Timed> {
+) -> PyResult<(f64, Vec<(&'static str, f64)>)> {
     let batch = &mut *batch.batch;
     let n = batch.len();
     if actions.shape()[0] == 0 || actions.shape()[1..] != [n, ACTION_SIZE] {
@@ -74,16 +71,17 @@ pub fn time_environments(
     });
     let parts = if parts { batch.parts() } else { Vec::new() };
     batch.time_parts(false);
-    Ok((seconds.map_err(refused)?, batch.lanes(), parts))
+    Ok((seconds.map_err(refused)?, parts))
 }
 
-/// Seconds of `calls` resets of one environment each, the environments in turn.
+/// Seconds of `calls` resets of one environment each, the environments in turn. The rows of the others are
+/// not observed again, as where a caller still has them.
 #[pyfunction]
 pub fn time_resets(py: Python<'_>, mut batch: PyRefMut<'_, SkiBatch>, calls: usize) -> PyResult<f64> {
     let batch = &mut *batch.batch;
     let n = batch.len();
     let mut observations = Outputs::new(batch).observations;
-    let mut request = ResetRequest { mask: vec![false; n], ..ResetRequest::default() };
+    let mut request = ResetRequest { mask: vec![false; n], others_observed: true, ..ResetRequest::default() };
     let seconds = py.detach(|| {
         let start = Instant::now();
         for call in 0..calls {
@@ -97,7 +95,7 @@ pub fn time_resets(py: Python<'_>, mut batch: PyRefMut<'_, SkiBatch>, calls: usi
 }
 
 /// Seconds of `calls` steps of `ticks` ticks with the inputs in turn, given as k times the bytes of
-/// `discjump.INPUT` of all players; and how many players were side by side.
+/// `discjump.INPUT` of all players.
 #[pyfunction]
 pub fn time_players(
     py: Python<'_>,
@@ -105,7 +103,7 @@ pub fn time_players(
     inputs: &[u8],
     ticks: u32,
     calls: usize,
-) -> PyResult<(f64, usize)> {
+) -> PyResult<f64> {
     let bodies = &mut *simulator.bodies;
     let n = bodies.len();
     if inputs.is_empty() || !inputs.len().is_multiple_of(n * INPUT_BYTES) {
@@ -123,5 +121,5 @@ pub fn time_players(
         }
         Ok(start.elapsed().as_secs_f64())
     });
-    Ok((seconds.map_err(refused)?, bodies.lanes()))
+    seconds.map_err(refused)
 }

@@ -36,7 +36,7 @@ pub fn state_fields(fields: &[discjump_core::player::Field]) -> Vec<(&'static st
 impl Simulator {
     #[new]
     #[pyo3(signature = (terrain, num_players, players_per_world, scene, armor, energy_pack, weapon, ammo, fidelity,
-        physics, tick_ms, threads))]
+        physics, tick_ms, threads, lanes))]
     #[expect(clippy::too_many_arguments, reason = "the package's constructor names them")]
     fn new(
         terrain: &Terrain,
@@ -51,6 +51,7 @@ impl Simulator {
         physics: PhysicsArgument,
         tick_ms: u32,
         threads: Option<usize>,
+        lanes: Option<usize>,
     ) -> PyResult<Self> {
         let setup = SimulatorSetup {
             terrain: &terrain.heightfield,
@@ -66,7 +67,7 @@ impl Simulator {
             physics: physics.switches()?,
             tick_ms,
             threads,
-            lanes: None,
+            lanes,
         };
         Ok(Self { bodies: setup.build().map_err(refused)? })
     }
@@ -75,6 +76,12 @@ impl Simulator {
     #[getter]
     fn num_players(&self) -> usize {
         self.bodies.len()
+    }
+
+    /// Players stepped side by side.
+    #[getter]
+    fn lanes(&self) -> usize {
+        self.bodies.lanes()
     }
 
     /// The scene's name.

@@ -89,4 +89,24 @@ def test_what_a_user_writes_into_them_changes_nothing():
         for left, right in zip(leaves(one), leaves(other), strict=True):
             assert left.tobytes() == right.tobytes()
         for array in leaves(other):
-            array[...] = 1
+            if array.flags.writeable:
+                array[...] = 1
+
+
+def test_only_masks_that_are_true_everywhere_are_shared_and_they_refuse_to_be_changed():
+    envs = SkiVectorEnv(4, **SHORT)
+    shared, ends = {id(envs.reset(seed=0)[1]["_distance"])}, 0
+    for action in random_actions(0, 200, 4):
+        *arrays, info = envs.step(action)
+        ends += "_return" in info
+        assert all(array.flags.writeable for array in leaves(arrays))
+        for key, column in info.items():
+            if key in ("_distance", "_speed", "_time", "_outside_mission_area"):
+                assert column.all()
+                with pytest.raises(ValueError, match="read-only"):
+                    column[0] = False
+                shared.add(id(column))
+            else:
+                assert column.flags.writeable, key
+    assert len(shared) == 1
+    assert ends > 3

@@ -125,12 +125,52 @@ def test_running_environments_share_one_info_that_refuses_changes():
     assert isinstance(info, dict)
 
 
-def test_list_of_infos_belongs_to_the_caller():
+def test_steps_without_an_end_share_one_list_of_infos_that_refuses_changes():
     envs = make_vec_env(ID, n_envs=3, seed=0, terrain_seeds=[0])
     envs.reset()
-    first = envs.step(random_actions(0, 1, 3)[0])[3]
-    first[0] = {"mine": 1}
-    assert envs.step(random_actions(0, 1, 3)[0])[3][0] == {}
+    infos = envs.step(random_actions(0, 1, 3)[0])[3]
+    assert envs.step(random_actions(0, 1, 3)[0])[3] is infos
+    for change in (
+        lambda: infos.__setitem__(0, {}),
+        lambda: infos.__delitem__(0),
+        lambda: infos.__iadd__([{}]),
+        lambda: infos.__imul__(2),
+        lambda: infos.append({}),
+        lambda: infos.clear(),
+        lambda: infos.extend([{}]),
+        lambda: infos.insert(0, {}),
+        lambda: infos.pop(),
+        lambda: infos.remove({}),
+        lambda: infos.reverse(),
+        lambda: infos.sort(key=len),
+    ):
+        with pytest.raises(TypeError, match="shared by all steps"):
+            change()
+    for twin in (
+        copy.copy(infos),
+        copy.deepcopy(infos),
+        infos.copy(),
+        infos[:],
+        pickle.loads(pickle.dumps(infos)),
+        list(infos),
+    ):
+        assert type(twin) is list
+        assert twin == [{}] * 3
+        twin[0] = {"a": 1}
+    assert infos == [{}, {}, {}]
+    assert isinstance(infos, list)
+
+
+def test_list_of_infos_of_an_end_belongs_to_the_caller():
+    envs, ends = make(3), 0
+    envs.reset()
+    for action in random_actions(0, 200, 3):
+        dones, infos = envs.step(action)[2:]
+        assert all(info == {} for info, done in zip(infos, dones, strict=True) if not done)
+        if dones.any():
+            ends += 1
+            infos[:] = [{"mine": 1}] * 3
+    assert ends > 3
 
 
 def test_rewards_may_be_changed_in_place():

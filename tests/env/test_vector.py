@@ -220,6 +220,26 @@ def test_disabled_refuses_to_step_over_an_end():
         envs.step(still)
 
 
+def test_resetting_a_few_returns_the_others_as_they_were_whatever_was_written_there():
+    envs, theirs = pair(6, AutoresetMode.DISABLED)
+    envs.reset(seed=0)
+    theirs.reset(seed=0)
+    rng = np.random.default_rng(1)
+    for t, action in enumerate(random_actions(8, 100, 6)):
+        mine, yours = envs.step(action), theirs.step(action)
+        same_bits(mine, yours, f"step {t}")
+        over = mine[2] | mine[3]
+        mine[0][:] = 7.0
+        for _ in range(3):
+            mask = over | (rng.random(6) < 0.2)
+            if mask.any():
+                mine, yours = (one.reset(options={"reset_mask": mask.copy()}) for one in (envs, theirs))
+                same_bits(mine, yours, f"reset after step {t}")
+                mine[0][:] = 7.0
+        if t == 40:
+            envs._task.restore(envs._task.snapshot())
+
+
 def test_step_before_every_environment_was_reset_is_refused():
     envs = SkiVectorEnv(2, **SHORT)
     with pytest.raises(ResetNeeded):

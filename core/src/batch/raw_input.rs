@@ -49,10 +49,33 @@ impl RawInput {
         Ok(())
     }
 
+    /// Whether [`RawInput::check`] accepts the keys, without a branch: a batch asks it of everybody.
+    #[inline(always)]
+    fn valid(&self) -> bool {
+        let key = |k: i8| k.wrapping_add(1).cast_unsigned() <= 2;
+        let flags = self.jump | self.jet | self.fire;
+        key(self.forward)
+            & key(self.strafe)
+            & (flags <= 1)
+            & (self.turn.abs() <= MAX_TURN_RATE)
+            & (self.pitch.abs() < f64::INFINITY)
+    }
+
+    /// Checks the ranges of everybody's keys.
+    ///
+    /// # Errors
+    /// Names the first player whose keys are out of range, the field, the range and the value.
+    pub(super) fn check_all(players: &[Self]) -> Result<(), InputError> {
+        if players.iter().fold(true, |all, keys| all & keys.valid()) {
+            return Ok(());
+        }
+        players.iter().enumerate().try_for_each(|(i, keys)| keys.check(i))
+    }
+
     /// The keys of up to as many players as `R` has lanes, side by side; the other lanes are idle.
     #[inline(always)]
     pub(super) fn pack<R: Real>(players: &[Self]) -> Input<R> {
-        let mut columns = [R::each(|_| R::Scalar::default()); 7];
+        let mut columns = [R::every(R::Scalar::default()); 7];
         for (lane, player) in players.iter().enumerate() {
             let keys = player.to_input::<R::Scalar>();
             let flag = |pressed: bool| R::Scalar::from_int(i32::from(pressed));

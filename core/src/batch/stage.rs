@@ -13,7 +13,7 @@ use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 use crate::solids::Solids;
 use crate::terrain::{Maps, Surface};
-use crate::tick::{act, look};
+use crate::tick::{go, look, push};
 use glam::DVec2;
 
 /// A player and what he has fired.
@@ -41,6 +41,9 @@ impl<S: Scene, R: Real> Body<S, R> {
         }
     }
 }
+
+/// Blocks that are ticked side by side: as many as a processor's window holds instructions of, and more.
+pub(super) const TOGETHER: usize = 8;
 
 /// How far along the contact normal the rays start that a blast sees by, m.
 const LIFTED: f64 = 0.05;
@@ -93,32 +96,43 @@ impl<'a, T: Scalar> Stage<'a, T> {
         Self { surface: maps.surface::<T>(), maps, solids, rules, arsenal, range }
     }
 
-    /// A tick of players who are alone in their worlds.
+    /// A tick of blocks of players who are alone in their worlds; at most [`TOGETHER`] blocks.
+    ///
+    /// What the ground has no part in comes first, for one block after the other: it is long chains of
+    /// instructions without a branch that could be guessed wrong, so that the chains of several blocks
+    /// overlap. The moves follow.
     #[inline(always)]
     pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
         &self,
-        body: &mut Body<S, R>,
-        input: &Input<R>,
+        bodies: &mut [Body<S, R>],
+        inputs: &[Input<R>],
     ) {
-        self.aim(body, input);
-        if !S::SOLIDS {
-            self.play::<S, M, R, _>(body, input, &self.surface);
-            return;
-        }
-        let near = self.near_solids(body);
+        let mut velocity = [V3::zero(); TOGETHER];
         // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
-        let mut before = None;
-        if near.any() {
-            before = Some(*body);
+        let mut near = [R::Mask::splat(false); TOGETHER];
+        let mut saved = [const { None }; TOGETHER];
+        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
+            self.aim(body, input);
+            if S::SOLIDS {
+                near[k] = self.near_solids(body);
+                if near[k].any() {
+                    saved[k] = Some(*body);
+                }
+            }
+            velocity[k] = push::<S, M, R>(&mut body.player, input, self.rules);
         }
-        if R::LANES > 1 || before.is_none() {
-            self.play::<S, M, R, _>(body, input, &self.surface);
-        }
-        if let Some(before) = before {
-            for lane in (0..R::LANES).filter(|&lane| near.lane(lane)) {
-                let mut one = before.lane(lane);
-                self.play_near::<S, M>(&mut one, &input.lane(lane));
-                body.set_lane(lane, &one);
+        for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
+            if R::LANES > 1 || saved[k].is_none() {
+                self.play::<S, M, R, _>(body, velocity[k], &self.surface);
+            }
+            if S::SOLIDS
+                && let Some(before) = &saved[k]
+            {
+                for lane in (0..R::LANES).filter(|&lane| near[k].lane(lane)) {
+                    let mut one = before.lane(lane);
+                    self.play_near::<S, M>(&mut one, &input.lane(lane));
+                    body.set_lane(lane, &one);
+                }
             }
         }
     }
@@ -128,7 +142,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
     #[inline(never)]
     fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
         let world = self.around(&[], 0);
-        self.play::<S, M, T, _>(body, input, &world);
+        let velocity = push::<S, M, T>(&mut body.player, input, self.rules);
+        self.play::<S, M, T, _>(body, velocity, &world);
     }
 
     /// A tick of several players in one world. They move one after the other, each past the others as
@@ -144,7 +159,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
         stands.extend(bodies.iter().map(|body| Stand::of(&body.player.place())));
         for me in 0..bodies.len() {
             let world = self.reachable(&bodies[me], stands, me);
-            self.advance::<S, M, T, _>(&mut bodies[me].player, &inputs[me], &world);
+            let velocity = push::<S, M, T>(&mut bodies[me].player, &inputs[me], self.rules);
+            self.advance::<S, M, T, _>(&mut bodies[me].player, velocity, &world);
             stands[me] = Stand::of(&bodies[me].player.place());
         }
         for (me, body) in bodies.iter_mut().enumerate() {
@@ -194,23 +210,23 @@ impl<'a, T: Scalar> Stage<'a, T> {
     fn advance<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
         &self,
         p: &mut Player<S, R>,
-        input: &Input<R>,
+        velocity: V3<R>,
         world: &W,
     ) {
-        act::<S, M, R, W>(p, input, world, self.rules);
+        go::<S, M, R, W>(p, velocity, world, self.rules);
         (p.position.x, p.position.y, p.tile_x, p.tile_y) =
             self.surface.wrap::<R>(p.position.x, p.position.y, p.tile_x, p.tile_y);
     }
 
-    /// Everything after the trigger, for players alone in their worlds.
+    /// Everything after the forces, for players alone in their worlds; `velocity` is that before them.
     #[inline(always)]
     fn play<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
         &self,
         body: &mut Body<S, R>,
-        input: &Input<R>,
+        velocity: V3<R>,
         world: &W,
     ) {
-        self.advance::<S, M, R, W>(&mut body.player, input, world);
+        self.advance::<S, M, R, W>(&mut body.player, velocity, world);
         let Some(arms) = body.arms.as_mut() else { return };
         fly(arms, body.player.map, world, self.arsenal);
         for shot in &arms.slots {

@@ -1,6 +1,6 @@
 //! The exact sweep of a point against the triangulated surface (docs/physics.md, section 5).
 
-use super::surface::{Square, Surface, unit_normal};
+use super::surface::{Plane, Surface, unit_normal};
 use crate::real::{Int, Mask, Real, Scalar, V3, Work};
 
 /// The first contact along a path.
@@ -39,12 +39,6 @@ impl<R: Real> Hit<R> {
     }
 }
 
-/// The part of a path that lies over one triangle, in the square's (mirrored) coordinates.
-struct Piece<R> {
-    from: R,
-    to: R,
-}
-
 /// The path relative to one square.
 struct Path<R> {
     /// Start, in the square's mirrored coordinates.
@@ -57,34 +51,62 @@ struct Path<R> {
     dz: R,
 }
 
-/// Contact with the plane of one triangle: one-sided, and at the entry for what is already below.
-#[inline(always)]
-fn contact<R: Real, const TWO_SIDED: bool>(
-    square: &Square<R>,
-    lower: R::Mask,
-    inverse: R,
-    path: &Path<R>,
-    piece: &Piece<R>,
-) -> (R::Mask, R, R, R) {
-    let plane = square.plane(lower, inverse);
-    // Signed distances to the plane times the same factor 1 / n.up, which their ratio does not see.
-    let approach = path.dz - (plane.gx * path.dx + plane.gy * path.dy);
-    let gap = path.z - (plane.z + plane.gx * path.x + plane.gy * path.y);
-    let enter = gap + approach * piece.from;
-    let leave = gap + approach * piece.to;
-    let zero = R::zero();
-    let under = enter.le(zero);
-    let crosses = leave.lt(zero);
-    let meets = if TWO_SIDED {
-        // From above down, or from below (the plane itself counts as below) up.
-        under.not().and(crosses).or(under.and(zero.lt(leave)))
-    } else {
-        approach.lt(zero).and(under.or(crosses))
-    };
-    let hit = square.ground.and(meets).and(piece.from.lt(piece.to));
-    let at = piece.from + (piece.to - piece.from) * (enter / (enter - leave));
-    let fraction = if TWO_SIDED { at } else { R::select(under, piece.from, at) };
-    (hit, fraction, square.world_slope(&plane), plane.gy)
+/// The part of a path that lies over one triangle.
+struct Piece<R: Real> {
+    from: R,
+    to: R,
+    /// The triangle's plane.
+    plane: Plane<R>,
+    /// Gap to the plane at both ends, negative below it: distances times the same factor 1 / n.up, which
+    /// their ratio does not see.
+    enter: R,
+    leave: R,
+    /// Whether the plane is met: one-sided, and at the entry for what is already below.
+    met: R::Mask,
+}
+
+impl<R: Real> Piece<R> {
+    #[inline(always)]
+    fn new<const TWO_SIDED: bool>(path: &Path<R>, plane: Plane<R>, from: R, to: R) -> Self {
+        let approach = path.dz - (plane.gx * path.dx + plane.gy * path.dy);
+        let gap = path.z - (plane.z + plane.gx * path.x + plane.gy * path.y);
+        let enter = gap + approach * from;
+        let leave = gap + approach * to;
+        let zero = R::zero();
+        let under = enter.le(zero);
+        let crosses = leave.lt(zero);
+        let meets = if TWO_SIDED {
+            // From above down, or from below (the plane itself counts as below) up.
+            under.not().and(crosses).or(under.and(zero.lt(leave)))
+        } else {
+            approach.lt(zero).and(under.or(crosses))
+        };
+        Self { from, to, plane, enter, leave, met: meets.and(from.lt(to)) }
+    }
+
+    /// Where the plane is met, as a fraction of the path.
+    #[inline(always)]
+    fn fraction<const TWO_SIDED: bool>(&self) -> R {
+        let at = self.from + (self.to - self.from) * (self.enter / (self.enter - self.leave));
+        if TWO_SIDED { at } else { R::select(self.enter.le(R::zero()), self.from, at) }
+    }
+
+    /// `a` where the mask is set, `b` elsewhere.
+    #[inline(always)]
+    fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
+        Self {
+            from: R::select(mask, a.from, b.from),
+            to: R::select(mask, a.to, b.to),
+            plane: Plane {
+                z: b.plane.z,
+                gx: R::select(mask, a.plane.gx, b.plane.gx),
+                gy: R::select(mask, a.plane.gy, b.plane.gy),
+            },
+            enter: R::select(mask, a.enter, b.enter),
+            leave: R::select(mask, a.leave, b.leave),
+            met: a.met.or(b.met),
+        }
+    }
 }
 
 /// A walk over the squares under a path, compiled once for each lane width: it is most of a tick, and
@@ -200,20 +222,19 @@ impl<T: Scalar> Surface<'_, T> {
             let cut = (-side / turn).max(from).min(to);
             let cut = R::select(along, to, cut);
             let first_lower = R::select(along, -side, turn).lt(zero);
-            let (hit_a, at_a, gx_a, gy_a) =
-                contact::<R, TWO_SIDED>(&square, first_lower, inverse, &local, &Piece { from, to: cut });
-            let (hit_b, at_b, gx_b, gy_b) = contact::<R, TWO_SIDED>(
-                &square,
-                first_lower.not(),
-                inverse,
-                &local,
-                &Piece { from: cut, to },
-            );
-            let hit = active.and(hit_a.or(hit_b));
-            fraction = R::select(hit, R::select(hit_a, at_a, at_b), fraction);
-            slope_x = R::select(hit, R::select(hit_a, gx_a, gx_b), slope_x);
-            slope_y = R::select(hit, R::select(hit_a, gy_a, gy_b), slope_y);
-            found = found.or(hit);
+            let lower = square.plane(first_lower, inverse);
+            let upper = square.plane(first_lower.not(), inverse);
+            let first = Piece::new::<TWO_SIDED>(&local, lower, from, cut);
+            let second = Piece::new::<TWO_SIDED>(&local, upper, cut, to);
+            let hit = active.and(square.ground).and(first.met.or(second.met));
+            // Most squares are passed over, and need no division to say where they are met.
+            if hit.any() {
+                let piece = Piece::select(first.met, &first, &second);
+                fraction = R::select(hit, piece.fraction::<TWO_SIDED>(), fraction);
+                slope_x = R::select(hit, square.world_slope(&piece.plane), slope_x);
+                slope_y = R::select(hit, piece.plane.gy, slope_y);
+                found = found.or(hit);
+            }
             active = active.and(hit.not()).and(next.lt(one));
 
             let cross_x = to_x.le(to_y);
@@ -225,7 +246,10 @@ impl<T: Scalar> Surface<'_, T> {
             y = first_y - R::from_int(j - first_j) * size;
             from = to;
         }
-        let body = R::Mask::splat(false);
-        Hit { hit: found, fraction, normal: unit_normal(slope_x, slope_y), body }
+        let mut normal = V3::new(-zero, -zero, one);
+        if found.any() {
+            normal = unit_normal(slope_x, slope_y);
+        }
+        Hit { hit: found, fraction, normal, body: R::Mask::splat(false) }
     }
 }

@@ -3,20 +3,18 @@
 use crate::armor;
 use crate::forces;
 use crate::input::Input;
-use crate::movement::{Movement, Obstacles};
 use crate::player::{OLDEST_MS, Player};
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 
-/// Forces and the move.
+/// Everything before the move. Returns the velocity after the jump and before the tick's forces.
 #[inline(always)]
-pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
+pub(super) fn push<S: Scene, R: Real>(
     p: &mut Player<S, R>,
     input: &Input<R>,
-    world: &W,
     rules: &Rules<R::Scalar>,
-) {
+) -> V3<R> {
     let wish = forces::wish(input.forward, input.strafe, p.yaw, rules);
     let mut contact = p.contact();
     let energy = p.energy.get(R::splat(rules.max_energy));
@@ -58,6 +56,5 @@ pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
 
     contact.age = (contact.age + R::Int::splat(rules.tick_ms)).clamp(0, OLDEST_MS);
     p.contact.set(contact);
-
-    M::advance(p, before, world, rules);
+    before
 }

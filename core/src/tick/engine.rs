@@ -3,20 +3,18 @@
 use crate::armor;
 use crate::forces;
 use crate::input::Input;
-use crate::movement::{Movement, Obstacles};
 use crate::player::{OLDEST_MS, Player};
 use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 
-/// Forces and the move.
+/// Everything before the move. Returns the velocity after the jump and before the tick's forces.
 #[inline(always)]
-pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
+pub(super) fn push<S: Scene, R: Real>(
     p: &mut Player<S, R>,
     input: &Input<R>,
-    world: &W,
     rules: &Rules<R::Scalar>,
-) {
+) -> V3<R> {
     let wish = forces::engine_wish(input.forward, input.strafe, p.yaw, rules);
     let mut contact = p.contact();
     let grace = R::Int::splat(armor::ENGINE_JUMP_GRACE);
@@ -53,9 +51,12 @@ pub(super) fn act<S: Scene, M: Movement, R: Real, W: Obstacles<R>>(
     p.velocity = V3::select(p.touched, p.velocity + walk, p.velocity);
     let still = before.length().lt(R::lit(armor::CRAWL_SPEED));
     p.crawled = p.touched.pick(reached, still);
+    before
+}
 
-    M::advance(p, before, world, rules);
-
+/// What follows the move: the last contact is a tick older.
+#[inline(always)]
+pub(super) fn age<S: Scene, R: Real>(p: &mut Player<S, R>) {
     let mut contact = p.contact();
     contact.age = (contact.age + R::Int::splat(1)).clamp(0, OLDEST_MS);
     p.contact.set(contact);

@@ -2,7 +2,7 @@
 
 use crate::common::envs::{Envs, ski};
 use crate::{INF, NAN, refused};
-use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StepOutput};
+use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StatusOutput, StepOutput};
 use discjump_core::error::InputError;
 use discjump_core::observe::SkiObservation;
 use discjump_core::task::{ActionKind, Actions, CourseRequest};
@@ -41,6 +41,7 @@ fn environments() {
     refused(build(|s| s.task.turn_rate = INF), "turn_rate", "inf");
     refused(build(|s| s.task.reward.progress = NAN), "reward", "NaN");
     refused(build(|s| s.task.reward.arrival = -INF), "reward", "-inf");
+    refused(build(|s| s.lanes = Some(3)), "lanes", "3");
     refused(build(|s| s.areas.truncate(1)), "areas", "1");
     refused(build(|s| s.areas[1].min[0] = NAN), "areas[1]", "NaN");
     refused(build(|s| s.areas[0] = Area { min: [9.0, 0.0], max: [0.0, 900.0] }), "areas[0]", "[9.0, 0.0]");
@@ -110,19 +111,26 @@ fn actions_of_a_decision() {
 fn outputs_of_a_decision() {
     let mut envs = Envs::seeded(ski(2, "authentic"), &[1, 2]);
     let actions = [1i8, 1, 0, 0, 3].repeat(2);
-    for short in 0..4 {
+    for short in 0..8 {
         envs_unchanged(
             &mut envs,
             |e| {
                 let Envs { batch, observations, rewards, terminated, truncated } = e;
                 let cut = |k: usize, n: usize| if short == k { n - 1 } else { n };
                 let n = observations.len();
+                let [mut distance, mut speed, mut time] = [[0.0; 2]; 3];
+                let mut outside = [false; 2];
                 let output = StepOutput {
                     observations: &mut observations[..cut(0, n)],
                     rewards: Rewards::F64(&mut rewards[..cut(1, 2)]),
                     terminated: &mut terminated[..cut(2, 2)],
                     truncated: &mut truncated[..cut(3, 2)],
-                    status: None,
+                    status: Some(StatusOutput {
+                        distance: &mut distance[..cut(4, 2)],
+                        speed: &mut speed[..cut(5, 2)],
+                        time: &mut time[..cut(6, 2)],
+                        outside: &mut outside[..cut(7, 2)],
+                    }),
                 };
                 batch.step(Actions::Int8(&actions), output)
             },

@@ -14,7 +14,6 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump import _check
-from discjump.envs import infos
 from discjump.envs.options import SkiOptions
 from discjump.envs.ski import checked_render_mode
 from discjump.envs.task import ObservationField, SkiTask, seeds_of
@@ -61,11 +60,38 @@ class SharedInfo(dict[str, Any]):
 SHARED_INFO = SharedInfo()
 
 
+class SharedInfos(list[dict[str, Any]]):
+    """The infos of a step that ended no episode: one list for all such steps, so it refuses to be changed.
+
+    A copy or a slice of it is a plain list.
+    """
+
+    __slots__ = ()
+
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
+        raise TypeError(
+            "this list of infos is shared by all steps that end no episode: copy it before you change it"
+        )
+
+    __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
+    append = clear = extend = insert = pop = remove = reverse = sort = _refuse
+
+    def __copy__(self) -> list[dict[str, Any]]:
+        return list(self)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> list[dict[str, Any]]:
+        return [{} for _ in self]
+
+    def __reduce__(self) -> tuple[type[list[Any]], tuple[list[dict[str, Any]]]]:
+        return list, (list(self),)
+
+
 class SkiVecEnv(VecEnv):
     """Ski environments as a stable-baselines3 `VecEnv`.
 
     Episodes restart in the step that ends them. Python's work in a step grows with the episodes that ended,
-    not with the environments: all others share one empty, read-only info. The info of an episode's end holds
+    not with the environments: all others share one empty, read-only info, and steps that end no episode one
+    read-only list of it. The info of an episode's end holds
 
     - `terminal_observation`: (size,) float32, the last observation of the episode;
     - `TimeLimit.truncated`: truncated and not terminated;
@@ -82,6 +108,7 @@ class SkiVecEnv(VecEnv):
     Args:
         num_envs: number of environments.
         threads: threads that step the batch; None: one per core.
+        lanes: players side by side in a register, as in `discjump.envs.vector`; no bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
         options: of the task.
     """
@@ -94,15 +121,21 @@ class SkiVecEnv(VecEnv):
         options: SkiOptions,
         *,
         threads: int | None = None,
+        lanes: int | None = None,
         render_mode: str | None = None,
     ) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.options = options
         self._task = SkiTask(
-            options, num_envs, autoreset="same_step", threads=threads, render=render_mode is not None
+            options,
+            num_envs,
+            autoreset="same_step",
+            threads=threads,
+            lanes=lanes,
+            render=render_mode is not None,
         )
         self._attributes: list[dict[str, Any]] = [{} for _ in range(num_envs)]
-        self._quiet = [SHARED_INFO] * num_envs
+        self._quiet = SharedInfos([SHARED_INFO] * num_envs)
         self._started = time.time()
         super().__init__(num_envs, self._task.observation_space, self._task.action_space)
         self.metadata: dict[str, Any] = {**self.metadata, "render_fps": 1 / options.decision_seconds}
@@ -124,8 +157,7 @@ class SkiVecEnv(VecEnv):
         )
         self._reset_seeds()
         self._reset_options()
-        now = infos.now(self._task.batch.status())
-        self.reset_infos = [infos.row(now, index) for index in range(self.num_envs)]
+        self.reset_infos = self._task.batch.infos()
         return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
@@ -139,34 +171,30 @@ class SkiVecEnv(VecEnv):
 
         Returns:
             Observations (num_envs, size) float32, of the next episode where one ended; rewards (num_envs,)
-            float32; dones (num_envs,) bool; infos.
+            float32; dones (num_envs,) bool; infos, a `SharedInfos` where no episode ended.
         """
         task = self._task
-        if not task.ready:
+        batch = task.batch
+        if batch.halted:
             raise ResetNeeded("step: expected a call of reset() first")
-        observations, rewards, terminated, truncated = task.step(np.asarray(self.actions))
-        step_infos: list[dict[str, Any]] = self._quiet.copy()  # type: ignore[assignment]
-        rows = task.batch.finished()
-        if len(rows):
-            self._note_ends(step_infos, rows, truncated[rows] & ~terminated[rows], observations)
-        # A copy of the rewards: the algorithm adds the value of a time-out's last state in place.
-        return observations, rewards.astype(np.float32), task.over.copy(), step_infos
+        step = batch.step_dones
+        observations, rewards, dones, ended = (
+            step(self.actions) if task.camera is None else task.filmed(step, self.actions)
+        )
+        if not ended:
+            return observations, rewards, dones, self._quiet
+        return observations, rewards, dones, self._ends(observations)
 
-    def _note_ends(
-        self,
-        step_infos: list[dict[str, Any]],
-        rows: NDArray[np.int64],
-        timed_out: NDArray[np.bool_],
-        observations: NDArray[np.float32],
-    ) -> None:
+    def _ends(self, observations: NDArray[np.float32]) -> list[dict[str, Any]]:
+        """The infos of a step that ended episodes."""
         batch = self._task.batch
-        last, finals = infos.at_end(batch.outcomes()), batch.final_observations()
+        rows, finals = batch.finished(), batch.final_observations()
         distances, speeds = (self._read(observations[rows], name) for name in ("beacon_distance", "speed"))
         elapsed = round(time.time() - self._started, 6)
-        for k, index in enumerate(rows.tolist()):
-            info = infos.row(last, k)
+        step_infos = list(self._quiet)
+        for k, (index, info) in enumerate(zip(rows.tolist(), batch.final_infos(), strict=True)):
             info["terminal_observation"] = finals[k]
-            info["TimeLimit.truncated"] = bool(timed_out[k])
+            info["TimeLimit.truncated"] = info["timeout"]
             info["episode"] = {"r": info["return"], "l": info["length"], "t": elapsed}
             step_infos[index] = info
             self.reset_infos[index] = {
@@ -176,6 +204,7 @@ class SkiVecEnv(VecEnv):
                 # Starts are drawn inside it.
                 "outside_mission_area": False,
             }
+        return step_infos
 
     def _read(self, observations: NDArray[np.float32], name: str) -> list[float]:
         """A field of one number in its unit, of each of the observations (k, size)."""
@@ -254,6 +283,7 @@ def make_vec_env(
     seed: int | None = None,
     *,
     threads: int | None = None,
+    lanes: int | None = None,
     render_mode: str | None = None,
     **options: Any,
 ) -> SkiVecEnv:
@@ -264,6 +294,7 @@ def make_vec_env(
         n_envs: number of environments.
         seed: environment i has seed + i; None: drawn from the operating system.
         threads: threads that step the batch; None: one per core.
+        lanes: players side by side in a register, as in `discjump.envs.vector`; no bit depends on it.
         render_mode: None or `rgb_array`.
         **options: fields of `discjump.envs.options.SkiOptions`.
 
@@ -278,8 +309,11 @@ def make_vec_env(
     """
     name = _check.choice("env_id", str(env_id).removeprefix("discjump:"), tuple(IDS))
     seeds = seeds_of(seed, _check.integer("n_envs", n_envs, 1, 2**24))
-    envs = SkiVecEnv(n_envs, IDS[name].from_keywords(options), threads=threads, render_mode=render_mode)
-    envs._seeds = list(seeds)
+    envs = SkiVecEnv(
+        n_envs, IDS[name].from_keywords(options), threads=threads, lanes=lanes, render_mode=render_mode
+    )
+    if seeds is not None:
+        envs._seeds = list(seeds)
     return envs
 
 

@@ -124,6 +124,7 @@ class Simulator:
         players_per_world: int = 1,
         weapon: str = "disc",
         ammo: int | None = None,
+        lanes: int | None = None,
     ) -> None:
         """Make a simulator.
 
@@ -144,6 +145,10 @@ class Simulator:
                 the first one, and so on. They block each other; discs and explosions act on all of them.
             weapon: "disc", "grenade" or "mortar", where the scene models discs.
             ammo: shots of a fresh player; None for the weapon's own number, 15.
+            lanes: players side by side in a register: 1, 8 or 16, as far as the processor has them; None: the
+                environment variable `DISCJUMP_LANES` says, else the processor. The bits do not depend on it.
+                Only "authentic", "swept" and "fast" have lanes, and only where every player is alone in his
+                world.
 
         Raises:
             ValueError: an argument out of range or unknown, with what was expected.
@@ -167,12 +172,18 @@ class Simulator:
             Physics() if physics is None else physics,
             _check.integer("tick_ms", tick_ms, 1, 1000),
             None if threads is None else _check.integer("threads", threads, 1, 256),
+            None if lanes is None else _check.integer("lanes", lanes, 1, 32),
         )
 
     @property
     def num_players(self) -> int:
         """How many players."""
         return self._native.num_players
+
+    @property
+    def lanes(self) -> int:
+        """How many players are stepped side by side."""
+        return self._native.lanes
 
     @property
     def scene(self) -> Scene:

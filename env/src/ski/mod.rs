@@ -1,55 +1,61 @@
 //! `SkiBatch`: many ski environments stepped together.
+//!
+//! * `step`: a decision, as each front end wants it back
+//! * `request`: resets
+//! * `actions`: actions from numpy
+//! * `info`: the dictionaries of info, from `columns`
+//! * `life`: whether a step may be taken
 
-use crate::arrays::{Buffers, Flags, array1, structured};
+use crate::arrays::{array1, structured};
 use crate::errors::refused;
 use crate::physics::PhysicsArgument;
 use crate::pools::pool;
 use crate::simulator::state_fields;
 use crate::terrain::Terrain;
-use discjump_core::batch::{Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StepOutput};
+use discjump_core::batch::{Autoreset, Environments, SkiEnvironments};
 use discjump_core::observe::{CLIP, SkiObservation};
-use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, Reward, SkiTask};
-use numpy::ndarray::{Ix1, Ix2};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Reward, SkiTask};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 
-mod report;
+mod actions;
+mod columns;
+mod info;
+mod life;
 mod request;
+mod step;
 
-use report::{outcomes, status};
-use request::courses;
+use life::Life;
+use step::{FlatStep, Outputs, SingleStep, Step};
 
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
 pub struct SkiBatch {
     pub(crate) batch: Box<dyn Environments>,
-    max_terrain: usize,
-    observations: Buffers<f32, Ix2>,
-    rewards: Buffers<f64, Ix1>,
-    terminated: Flags,
-    truncated: Flags,
+    terrains: usize,
+    frame_skip: usize,
+    autoreset: Autoreset,
+    life: Life,
+    outputs: Outputs,
+    /// A copy of the last observations where resets of a few are to be expected, so that the other rows
+    /// need not be observed again; empty where there is none.
+    kept: Vec<f32>,
 }
-
-type Step<'py> = (
-    Bound<'py, PyArray2<f32>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<bool>>,
-    Bound<'py, PyArray1<bool>>,
-);
 
 #[pymethods]
 impl SkiBatch {
     #[new]
     #[pyo3(signature = (terrains, num_envs, *, fidelity, armor, energy_pack, physics, tick_ms, frame_skip, actions,
         turn_rate, time_limit, arrival_radius, goal_distance, start_speed, reward, fan_bearings, fan_ranges, landing,
-        autoreset, threads))]
+        autoreset, threads, lanes))]
     #[expect(
         clippy::too_many_arguments,
         reason = "keyword arguments that the package fills from its options"
     )]
     fn new(
+        py: Python<'_>,
         terrains: Vec<PyRef<'_, Terrain>>,
         num_envs: usize,
         fidelity: String,
@@ -70,6 +76,7 @@ impl SkiBatch {
         landing: bool,
         autoreset: &str,
         threads: Option<usize>,
+        lanes: Option<usize>,
     ) -> PyResult<Self> {
         let ticks = time_limit * 1000.0 / f64::from(tick_ms.max(1));
         if !(1.0..=1e9).contains(&ticks) {
@@ -79,6 +86,7 @@ impl SkiBatch {
         }
         let (progress, time, arrival) = reward;
         let fields: Vec<_> = terrains.iter().map(|t| &t.heightfield).collect();
+        let autoreset = autoreset_mode(autoreset)?;
         let setup = SkiEnvironments {
             maps: pool(&fields)?,
             areas: terrains.iter().map(|t| t.area()).collect(),
@@ -99,18 +107,18 @@ impl SkiBatch {
             },
             actions: action_kind(actions)?,
             observation: SkiObservation::new(&fan_bearings, &fan_ranges, landing).map_err(refused)?,
-            autoreset: autoreset_mode(autoreset)?,
+            autoreset,
             threads,
-            lanes: None,
+            lanes,
         };
         let batch = setup.build().map_err(refused)?;
-        let row = batch.observation_size();
         Ok(Self {
-            max_terrain: fields.len(),
-            observations: Buffers::new(Ix2(num_envs, row)),
-            rewards: Buffers::new(Ix1(num_envs)),
-            terminated: Buffers::new(Ix1(num_envs)),
-            truncated: Buffers::new(Ix1(num_envs)),
+            terrains: fields.len(),
+            frame_skip: frame_skip as usize,
+            autoreset,
+            life: Life::new(num_envs, autoreset),
+            outputs: Outputs::new(py, num_envs, batch.observation_size())?,
+            kept: Vec::new(),
             batch,
         })
     }
@@ -119,6 +127,24 @@ impl SkiBatch {
     #[getter]
     fn num_envs(&self) -> usize {
         self.batch.len()
+    }
+
+    /// Players stepped side by side.
+    #[getter]
+    fn lanes(&self) -> usize {
+        self.batch.lanes()
+    }
+
+    /// Whether a reset must come before the next step.
+    #[getter]
+    fn halted(&self) -> bool {
+        self.life.halted()
+    }
+
+    /// Whether some environment was never reset.
+    #[getter]
+    fn fresh(&self) -> bool {
+        self.life.fresh()
     }
 
     /// Numbers in an observation.
@@ -171,57 +197,47 @@ impl SkiBatch {
     fn reset<'py>(
         &mut self,
         py: Python<'py>,
-        seeds: Option<Vec<u64>>,
-        mask: Option<Vec<bool>>,
+        seeds: Option<PyReadonlyArray1<'py, u64>>,
+        mask: Option<PyReadonlyArray1<'py, bool>>,
         start: Option<Bound<'py, PyAny>>,
         goal: Option<Bound<'py, PyAny>>,
-        terrain: Option<Vec<i64>>,
+        terrain: Option<PyReadonlyArray1<'py, i64>>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let n = self.batch.len();
-        let courses = courses(py, n, self.max_terrain, start, goal, terrain)?;
-        if seeds.as_ref().is_some_and(|s| s.len() != n) || mask.as_ref().is_some_and(|m| m.len() != n) {
-            return Err(PyValueError::new_err(format!("seeds, mask: expected {n}, one per environment")));
-        }
-        let request =
-            ResetRequest { seeds: seeds.unwrap_or_default(), mask: mask.unwrap_or_default(), courses };
-        let array = self.observations.take(py);
-        {
-            let mut out = array.readwrite();
-            let slice = out.as_slice_mut()?;
-            let batch = &mut self.batch;
-            py.detach(|| batch.reset(&request, slice)).map_err(refused)?;
-        }
-        Ok(array)
+        let courses = request::courses(py, self.batch.len(), self.terrains, start, goal, terrain)?;
+        self.begin(py, seeds, mask, courses)
     }
 
-    /// One decision of every environment: (observations, rewards, terminated, truncated).
+    /// One decision of every environment: (observations, rewards, terminated, truncated, info), info in
+    /// columns with gymnasium's `_key` masks.
     fn step<'py>(&mut self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
-        if let Ok(a) = actions.extract::<PyReadonlyArray2<'_, i64>>() {
-            return self.step_with(py, &a, |s| Actions::Int64(s));
-        }
-        if let Ok(a) = actions.extract::<PyReadonlyArray2<'_, i32>>() {
-            return self.step_with(py, &a, |s| Actions::Int32(s));
-        }
-        if let Ok(a) = actions.extract::<PyReadonlyArray2<'_, i8>>() {
-            return self.step_with(py, &a, |s| Actions::Int8(s));
-        }
-        if let Ok(a) = actions.extract::<PyReadonlyArray2<'_, f32>>() {
-            return self.step_with(py, &a, |s| Actions::Float(s));
-        }
-        let wanted = match self.batch.action_kind() {
-            ActionKind::MultiDiscrete => "int8, int32 or int64",
-            ActionKind::Box => "float32",
-        };
-        let got = py.import("numpy")?.call_method1("asarray", (actions,))?;
-        let (dtype, shape) = (got.getattr("dtype")?, got.getattr("shape")?);
-        let message = format!(
-            "actions: expected an array of {wanted}, shape ({}, {ACTION_SIZE}), got {dtype} {shape}",
-            self.batch.len(),
-        );
-        if wanted.contains(&dtype.to_string()) && shape.len()? != 2 {
-            return Err(PyValueError::new_err(message));
-        }
-        Err(PyTypeError::new_err(message))
+        self.step_columns(py, actions)
+    }
+
+    /// The same as (observations, rewards as float32, dones, whether an episode ended).
+    fn step_dones<'py>(&mut self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<FlatStep<'py>> {
+        self.step_flat(py, actions)
+    }
+
+    /// One decision of a batch of one: (observation, reward, terminated, truncated, info) without the
+    /// dimension of the batch.
+    fn step_one<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<SingleStep<'py>> {
+        self.step_single(py, action)
+    }
+
+    /// Columns of info, with masks, of the environments in a mask as they are now; of all where None.
+    #[pyo3(signature = (mask=None))]
+    fn info<'py>(
+        &mut self,
+        py: Python<'py>,
+        mask: Option<PyReadonlyArray1<'py, bool>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let mask = mask.as_ref().map(|mask| request::entries("mask", mask, self.batch.len())).transpose()?;
+        self.outputs.infos.columns(py, self.batch.as_ref(), mask.as_deref())
+    }
+
+    /// The info of every environment as it is now.
+    fn infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.batch.status().iter().map(|status| self.outputs.infos.row(py, status)).collect()
     }
 
     /// Indices of the environments whose episode ended in the last step, ascending, int64.
@@ -231,18 +247,22 @@ impl SkiBatch {
 
     /// Their last observations, float32 (len(finished), observation_size).
     fn final_observations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let rows = self.batch.finished().len();
-        array1(py, self.batch.final_observations().to_vec()).reshape([rows, self.batch.observation_size()])
+        self.final_rows(py)
     }
 
-    /// How they ended: structured, shape (len(finished),).
-    fn outcomes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        outcomes(py, self.batch.finished())
+    /// Their last infos.
+    fn final_infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.batch.finished().iter().map(|(_, outcome)| self.outputs.infos.last_row(py, outcome)).collect()
     }
 
-    /// distance (m), speed (m/s), time (s), outside (the mission area), terrain: structured, (num_envs,).
-    fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        status(py, &self.batch.status())
+    /// A byte per environment: 1 where it was reset once, and 2 where its episode is over.
+    fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
+        array1(py, self.life.flags())
+    }
+
+    /// Which terrain each episode runs on, int64 (num_envs,).
+    fn terrain_index<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        array1(py, self.batch.status().iter().map(|status| status.terrain as i64).collect())
     }
 
     /// All players' states, as `Simulator.state()`.
@@ -261,9 +281,23 @@ impl SkiBatch {
         PyBytes::new(py, &self.batch.snapshot())
     }
 
-    /// Goes back to a snapshot of a batch with the same arguments.
+    /// Goes back to a snapshot of a batch with the same arguments; `set_flags` goes back to its flags.
     fn restore(&mut self, snapshot: &[u8]) -> PyResult<()> {
-        self.batch.restore(snapshot).map_err(refused)
+        self.batch.restore(snapshot).map_err(refused)?;
+        self.kept.clear();
+        Ok(())
+    }
+
+    /// Overwrites what `flags` gives, as bytes.
+    fn set_flags(&mut self, flags: &[u8]) -> PyResult<()> {
+        let (n, got) = (self.batch.len(), flags.len());
+        if got != n {
+            return Err(PyValueError::new_err(format!(
+                "flags: expected {n}, one per environment, got {got}"
+            )));
+        }
+        self.life.restore(flags);
+        Ok(())
     }
 
     /// 32 hexadecimal digits that name the environments' exact bits.
@@ -273,48 +307,17 @@ impl SkiBatch {
 }
 
 impl SkiBatch {
-    fn step_with<'py, T: numpy::Element + Clone>(
-        &mut self,
-        py: Python<'py>,
-        actions: &PyReadonlyArray2<'py, T>,
-        kind: impl FnOnce(&[T]) -> Actions<'_>,
-    ) -> PyResult<Step<'py>> {
-        let n = self.batch.len();
-        if actions.shape() != [n, ACTION_SIZE] {
-            return Err(PyValueError::new_err(format!(
-                "actions: expected shape ({n}, {ACTION_SIZE}), got {:?}",
-                actions.shape()
-            )));
+    fn final_rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let rows = self.batch.finished().len();
+        array1(py, self.batch.final_observations().to_vec()).reshape([rows, self.batch.observation_size()])
+    }
+
+    /// Keeps a copy of the observations that were just written, where that pays.
+    fn remember(&mut self, observations: &[f32]) {
+        if self.autoreset == Autoreset::Disabled && self.batch.len() > 1 {
+            self.kept.clear();
+            self.kept.extend_from_slice(observations);
         }
-        // Fortran order has a slice too, but its rows are scrambled.
-        let copied: Vec<T>;
-        let slice = if actions.is_c_contiguous() {
-            actions.as_slice()?
-        } else {
-            copied = actions.as_array().iter().cloned().collect();
-            &copied
-        };
-        let actions = kind(slice);
-        let out = (
-            self.observations.take(py),
-            self.rewards.take(py),
-            self.terminated.take(py),
-            self.truncated.take(py),
-        );
-        {
-            let (mut a, mut b) = (out.0.readwrite(), out.1.readwrite());
-            let (mut c, mut d) = (out.2.readwrite(), out.3.readwrite());
-            let output = StepOutput {
-                observations: a.as_slice_mut()?,
-                rewards: Rewards::F64(b.as_slice_mut()?),
-                terminated: c.as_slice_mut()?,
-                truncated: d.as_slice_mut()?,
-                status: None,
-            };
-            let batch = &mut self.batch;
-            py.detach(|| batch.step(actions, output)).map_err(refused)?;
-        }
-        Ok(out)
     }
 }
 

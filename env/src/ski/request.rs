@@ -1,12 +1,61 @@
-//! What a reset asks for, from Python's arguments.
+//! Resets, from Python's arguments.
 
+use super::SkiBatch;
 use crate::arrays::rows;
 use crate::errors::refused;
+use discjump_core::batch::ResetRequest;
 use discjump_core::error::InputError;
 use discjump_core::task::CourseRequest;
 use glam::DVec2;
+use numpy::{Element, PyArray2, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::borrow::Cow;
+
+impl SkiBatch {
+    /// Begins episodes and returns all observations.
+    pub(super) fn begin<'py>(
+        &mut self,
+        py: Python<'py>,
+        seeds: Option<PyReadonlyArray1<'py, u64>>,
+        mask: Option<PyReadonlyArray1<'py, bool>>,
+        courses: Vec<CourseRequest>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let n = self.batch.len();
+        let seeds = seeds.as_ref().map(|seeds| entries("seeds", seeds, n)).transpose()?;
+        let mask = mask.as_ref().map(|mask| entries("mask", mask, n)).transpose()?.map(Cow::into_owned);
+        let request = ResetRequest {
+            seeds: seeds.map(Cow::into_owned).unwrap_or_default(),
+            mask: mask.clone().unwrap_or_default(),
+            courses,
+            others_observed: mask.is_some() && !self.kept.is_empty(),
+        };
+        let mut array = self.outputs.observations.take(py);
+        let observations = array.contents();
+        if request.others_observed {
+            observations.copy_from_slice(&self.kept);
+        }
+        let batch = &mut self.batch;
+        py.detach(|| batch.reset(&request, observations)).map_err(refused)?;
+        self.life.reset(mask.as_deref());
+        self.remember(array.contents());
+        Ok(array.hand_over())
+    }
+}
+
+/// The entries of an array with one per environment.
+pub(super) fn entries<'a, T: Element + Copy>(
+    name: &str,
+    array: &'a PyReadonlyArray1<'_, T>,
+    n: usize,
+) -> PyResult<Cow<'a, [T]>> {
+    check_rows(name, array.len(), n)?;
+    Ok(match array.as_slice() {
+        Ok(slice) => Cow::Borrowed(slice),
+        // Every other one, or backwards.
+        Err(_) => Cow::Owned(array.as_array().iter().copied().collect()),
+    })
+}
 
 /// The fixed parts of `n` episodes on `terrains` maps; empty where nothing is fixed.
 pub(super) fn courses(
@@ -15,7 +64,7 @@ pub(super) fn courses(
     terrains: usize,
     start: Option<Bound<'_, PyAny>>,
     goal: Option<Bound<'_, PyAny>>,
-    terrain: Option<Vec<i64>>,
+    terrain: Option<PyReadonlyArray1<'_, i64>>,
 ) -> PyResult<Vec<CourseRequest>> {
     let mut courses = Vec::new();
     if start.is_some() || goal.is_some() || terrain.is_some() {
@@ -37,8 +86,8 @@ pub(super) fn courses(
         }
     }
     if let Some(terrain) = terrain {
-        check_rows("terrain", terrain.len(), n)?;
-        for (course, &index) in courses.iter_mut().zip(&terrain) {
+        let terrain = entries("terrain", &terrain, n)?;
+        for (course, &index) in courses.iter_mut().zip(terrain.as_ref()) {
             course.map = match index {
                 -1 => None,
                 _ => Some(usize::try_from(index).ok().filter(|&i| i < terrains).ok_or_else(|| {

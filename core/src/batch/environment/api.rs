@@ -25,6 +25,9 @@ pub struct ResetRequest {
     pub mask: Vec<bool>,
     /// Fixed parts of the episodes; drawn where empty.
     pub courses: Vec<CourseRequest>,
+    /// Whether the rows of environments outside the mask hold their observations already and stay as
+    /// they are.
+    pub others_observed: bool,
 }
 
 /// Where a step writes: one entry (or row) per environment.
@@ -103,7 +106,8 @@ pub trait Environments: Send + Sync {
     fn layout(&self) -> Vec<LayoutField>;
     /// The kind of action that [`Environments::step`] takes.
     fn action_kind(&self) -> ActionKind;
-    /// Begins episodes, and writes the observations of all environments.
+    /// Begins episodes, and writes the observations of all environments, or, where the request says that
+    /// the others are observed, of those that it resets.
     ///
     /// # Errors
     /// If the request is malformed; then nothing was changed.
@@ -119,6 +123,11 @@ pub trait Environments: Send + Sync {
     fn final_observations(&self) -> &[f32];
     /// Status of every environment.
     fn status(&self) -> Vec<Status>;
+    /// Status of one environment.
+    ///
+    /// # Panics
+    /// If there is no such environment.
+    fn status_of(&self, index: usize) -> Status;
     /// World position of every beacon, m.
     fn goals(&self) -> Vec<[f64; 3]>;
     /// The fields of a player's state after `position` (three f64), packed.

@@ -1,11 +1,16 @@
 //! The environments of a block, and one decision of them while it is in the nearest cache: keys, ticks,
 //! rewards, ends, the next episodes, observations, status.
 
-use super::episode::{Begun, Episodes, Phase};
+use super::decision::Decision;
+use super::episode::{Begun, Episodes};
 use super::step::Piece;
 use super::*;
 use crate::real::Work;
 use crate::terrain::{Maps, Surface};
+
+/// Blocks whose phases are worked on together: as many as a processor's window holds instructions of, and
+/// few enough to stay in its nearest cache.
+pub(super) const TOGETHER: usize = 8;
 
 /// The environments of some lanes, side by side.
 #[derive(Clone, Copy)]
@@ -48,40 +53,58 @@ pub(super) struct Step<'a, S: Scene, M: Movement, R: Real> {
 impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
     type Output = ();
 
+    /// Phase by phase for some blocks at a time: within a phase there are few branches that could be
+    /// guessed wrong, so that the chains of instructions of several blocks overlap.
     #[inline(always)]
     fn run(self) {
         let Self { batch, surface, mut piece, actions } = self;
-        let row = batch.row;
+        let (row, count) = (batch.row, batch.setup.count);
         let turn_rate = <R::Scalar as Scalar>::from_f64(batch.setup.task.turn_rate);
-        for (k, block) in piece.blocks.iter_mut().enumerate() {
-            let at = k * R::LANES;
-            let first = piece.first + at;
-            // Lanes beyond the last environment are padding.
-            let players = R::LANES.min(batch.setup.count - first);
-            let input = actions.input::<R>(first, players, turn_rate);
+        for group in 0..piece.blocks.len().div_ceil(TOGETHER) {
+            let start = group * TOGETHER;
+            let end = piece.blocks.len().min(start + TOGETHER);
+            let blocks = &mut piece.blocks[start..end];
+            // Where a block's rows begin within the piece, and how many it has: lanes beyond the last
+            // environment are padding.
+            let at = |k: usize| (start + k) * R::LANES;
+            let players = |k: usize| R::LANES.min(count - piece.first - at(k));
+
+            let mut inputs = [Input::<R>::idle(); TOGETHER];
+            for (k, input) in inputs.iter_mut().enumerate().take(blocks.len()) {
+                *input = actions.input::<R>(piece.first + at(k), players(k), turn_rate);
+            }
             piece.report.charge(0);
-            let decision = batch.decide(block, &input, &surface);
+            let mut decisions = [Decision::<R>::none(); TOGETHER];
+            batch.decide(blocks, &inputs, &surface, &mut decisions);
             piece.report.charge(1);
-            let rewards = batch.settle(block, &decision, &surface);
-            if batch.setup.autoreset == Autoreset::NextStep && decision.played.not().any() {
-                batch.go_on_where_over(block, &decision, players);
+            for (k, block) in blocks.iter_mut().enumerate() {
+                let rewards = batch.settle(block, &decisions[k], &surface);
+                piece.output.rewards.write(at(k), &rewards.as_ref()[..players(k)]);
+                if batch.setup.autoreset == Autoreset::NextStep && decisions[k].played.not().any() {
+                    batch.go_on_where_over(block, &decisions[k], players(k));
+                }
             }
             piece.report.charge(2);
-            let rows = &mut piece.output.observations[at * row..(at + players) * row];
-            batch.observe_block(block, &surface, rows, players);
+            for (k, block) in blocks.iter().enumerate() {
+                let rows = &mut piece.output.observations[at(k) * row..(at(k) + players(k)) * row];
+                batch.observe_block(block, &surface, rows, players(k));
+            }
             piece.report.charge(3);
-            piece.output.rewards.write(at, &rewards.as_ref()[..players]);
-            for (lane, &phase) in block.episodes.phase.as_ref()[..players].iter().enumerate() {
-                piece.output.terminated[at + lane] = phase == Phase::Terminated;
-                piece.output.truncated[at + lane] = phase == Phase::Truncated;
+            for (k, block) in blocks.iter().enumerate() {
+                piece.output.write_flags(at(k), &block.episodes.phase.as_ref()[..players(k)]);
             }
             piece.report.charge(4);
-            if decision.over().any() {
-                batch.report_ends(block, first, &decision, rows, piece.report);
+            for (k, block) in blocks.iter_mut().enumerate() {
+                if decisions[k].over().any() {
+                    let rows = &mut piece.output.observations[at(k) * row..(at(k) + players(k)) * row];
+                    batch.report_ends(block, piece.first + at(k), &decisions[k], rows, piece.report);
+                }
             }
             piece.report.charge(2);
             if let Some(status) = &mut piece.output.status {
-                batch.write_status(block, &surface, (at, players), status);
+                for (k, block) in blocks.iter().enumerate() {
+                    batch.write_status(block, &surface, (at(k), players(k)), status);
+                }
             }
             piece.report.charge(4);
         }

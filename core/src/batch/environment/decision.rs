@@ -1,11 +1,13 @@
 //! The ticks of one decision, and what they are worth.
 
-use super::block::Block;
+use super::block::{Block, TOGETHER};
 use super::episode::Phase;
 use super::*;
 use crate::terrain::Surface;
+use crate::tick::{go, look, push};
 
 /// How a decision went: who played it at all, for how many ticks, and how it ended.
+#[derive(Clone, Copy)]
 pub(super) struct Decision<R: Real> {
     pub(super) played: R::Mask,
     ticks: R::Int,
@@ -15,6 +17,13 @@ pub(super) struct Decision<R: Real> {
 }
 
 impl<R: Real> Decision<R> {
+    /// Nobody played.
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let none = R::Mask::splat(false);
+        Self { played: none, ticks: R::Int::splat(0), arrived: none, died: none, timed_out: none }
+    }
+
     /// Whose episode it ended.
     #[inline(always)]
     pub(super) fn over(&self) -> R::Mask {
@@ -27,35 +36,45 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     #[inline(always)]
     pub(super) fn decide(
         &self,
-        block: &mut Block<S, R>,
-        input: &Input<R>,
+        blocks: &mut [Block<S, R>],
+        inputs: &[Input<R>; TOGETHER],
         surface: &Surface<'_, R::Scalar>,
-    ) -> Decision<R> {
-        let none = R::Mask::splat(false);
-        let played = block.episodes.are(Phase::Running);
-        let mut active = played;
-        let mut decision =
-            Decision::<R> { played, ticks: R::Int::splat(0), arrived: none, died: none, timed_out: none };
-        for _ in 0..self.setup.task.frame_skip {
-            if !active.any() {
-                break;
-            }
-            let before = block.player;
-            let mut after = crate::tick::tick::<S, M, R, _>(&before, input, surface, &self.rules);
-            let mut run = block.run;
-            let verdict = run.judge(&before, &after, &self.setup.task, self.rules.max_damage, surface);
-            (after.position.x, after.position.y, after.tile_x, after.tile_y) =
-                surface.wrap::<R>(after.position.x, after.position.y, after.tile_x, after.tile_y);
-            block.player = Player::select(active, &after, &before);
-            block.run = Run::select(active, &run, &block.run);
-            let more = decision.ticks + R::Int::splat(1);
-            decision.ticks = R::Int::select(active, more, decision.ticks);
-            decision.arrived = decision.arrived.or(active.and(verdict.arrived));
-            decision.died = decision.died.or(active.and(verdict.died));
-            decision.timed_out = decision.timed_out.or(active.and(verdict.timed_out));
-            active = active.and(decision.over().not());
+        decisions: &mut [Decision<R>; TOGETHER],
+    ) {
+        let mut active = [R::Mask::splat(false); TOGETHER];
+        for (k, block) in blocks.iter().enumerate() {
+            active[k] = block.episodes.are(Phase::Running);
+            decisions[k].played = active[k];
         }
-        decision
+        let mut after = [blocks[0].player; TOGETHER];
+        let mut velocity = [V3::zero(); TOGETHER];
+        for _ in 0..self.setup.task.frame_skip {
+            for (k, block) in blocks.iter().enumerate() {
+                after[k] = block.player;
+                look(&mut after[k], &inputs[k], &self.rules);
+                velocity[k] = push::<S, M, R>(&mut after[k], &inputs[k], &self.rules);
+            }
+            for (k, block) in blocks.iter_mut().enumerate() {
+                if !active[k].any() {
+                    continue;
+                }
+                let Block { player: before, run: running, .. } = block;
+                let (after, decision, active) = (&mut after[k], &mut decisions[k], &mut active[k]);
+                go::<S, M, R, _>(after, velocity[k], surface, &self.rules);
+                let mut run = *running;
+                let verdict = run.judge(before, after, &self.setup.task, self.rules.max_damage, surface);
+                (after.position.x, after.position.y, after.tile_x, after.tile_y) =
+                    surface.wrap::<R>(after.position.x, after.position.y, after.tile_x, after.tile_y);
+                *before = Player::select(*active, after, before);
+                *running = Run::select(*active, &run, running);
+                let more = decision.ticks + R::Int::splat(1);
+                decision.ticks = R::Int::select(*active, more, decision.ticks);
+                decision.arrived = decision.arrived.or(active.and(verdict.arrived));
+                decision.died = decision.died.or(active.and(verdict.died));
+                decision.timed_out = decision.timed_out.or(active.and(verdict.timed_out));
+                *active = active.and(decision.over().not());
+            }
+        }
     }
 
     /// Rewards of those who played, 0 for the others; their books and phases.

@@ -52,7 +52,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 
     fn outcome(&self, block: &Block<S, R>, lane: usize, decision: &Decision<R>) -> Outcome {
         let (player, run, e) = (block.player.lane(lane), block.run.lane(lane), block.episodes.lane(lane));
-        let Status { distance, speed, time, outside, .. } = self.status_of(&player, &run, &e);
+        let Status { distance, speed, time, outside, .. } = self.describe(&player, &run, &e);
         let path = run.path.to_f64();
         Outcome {
             success: decision.arrived.lane(lane),
@@ -76,7 +76,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     /// What is reported of an environment at any time.
-    pub(super) fn status_of(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, e: &Episode) -> Status {
+    pub(super) fn describe(&self, p: &Player<S, R::Scalar>, run: &Run<R::Scalar>, e: &Episode) -> Status {
         let surface = self.setup.maps.surface::<R::Scalar>();
         let terrain = e.map as usize;
         Status {

@@ -180,9 +180,9 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         self.check_reset(request, observations.len())?;
         let crew = self.crew()?;
         let _floats = DefaultFloats::enter();
-        let chosen = |i: usize| request.mask.is_empty() || request.mask[i];
+        let asked = |i: usize| request.mask.is_empty() || request.mask[i];
         let mut begun: Vec<(usize, Begun<S, R::Scalar>)> = Vec::new();
-        for i in (0..self.setup.count).filter(|&i| chosen(i)) {
+        for i in (0..self.setup.count).filter(|&i| asked(i)) {
             let old = self.episode(i);
             let (seed, number) = match (request.seeds.get(i), old.phase) {
                 (Some(&seed), _) => (seed, 0),
@@ -198,11 +198,22 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
                 .map_err(|e| InputError(format!("environment {i}: {e}")))?;
             begun.push((i, next));
         }
+        let chosen: Vec<usize> = begun.iter().map(|&(i, _)| i).collect();
         for (i, next) in begun {
             self.put(i, &next);
         }
         self.note_phases();
-        self.observe_all(crew, observations);
+        if request.others_observed {
+            let surface = self.setup.maps.surface();
+            for i in chosen {
+                let (block, lane) = (&self.blocks[i / R::LANES], i % R::LANES);
+                let (player, run) = (block.player.lane(lane), block.run.lane(lane));
+                let row = &mut observations[i * self.row..(i + 1) * self.row];
+                self.observe::<R::Scalar>(&player, &run, &surface, block.lowest.lane(lane), row, 1);
+            }
+        } else {
+            self.observe_all(crew, observations);
+        }
         Ok(())
     }
 
@@ -220,7 +231,13 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     }
 
     fn status(&self) -> Vec<Status> {
-        self.each().map(|(p, run, episode)| self.status_of(&p, &run, &episode)).collect()
+        self.each().map(|(p, run, episode)| self.describe(&p, &run, &episode)).collect()
+    }
+
+    fn status_of(&self, index: usize) -> Status {
+        assert!(index < self.setup.count, "no environment {index}");
+        let (block, lane) = (&self.blocks[index / R::LANES], index % R::LANES);
+        self.describe(&block.player.lane(lane), &block.run.lane(lane), &self.episode(index))
     }
 
     fn goals(&self) -> Vec<[f64; 3]> {

@@ -74,6 +74,15 @@ impl<'a> StepOutput<'a> {
         }
     }
 
+    /// Flags of the environments from `at` on.
+    #[inline(always)]
+    pub(super) fn write_flags(&mut self, at: usize, phases: &[Phase]) {
+        for (lane, &phase) in phases.iter().enumerate() {
+            self.terminated[at + lane] = phase == Phase::Terminated;
+            self.truncated[at + lane] = phase == Phase::Truncated;
+        }
+    }
+
     /// Every length but that of the observations.
     fn lengths(&self) -> impl Iterator<Item = usize> {
         let rewards = match &self.rewards {

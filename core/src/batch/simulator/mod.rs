@@ -14,7 +14,7 @@ use super::neighbourhood::Stand;
 use super::pool::{Crew, PIECE};
 use super::raw_input::RawInput;
 use super::snapshot;
-use super::stage::{Body, Stage};
+use super::stage::{Body, Stage, TOGETHER};
 use crate::arms::Arsenal;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
@@ -144,10 +144,14 @@ impl<S: Scene, M: Movement, R: Real> Work for PlayAlone<'_, S, M, R> {
 
     #[inline(always)]
     fn run(self) {
-        for (block, raw) in self.blocks.iter_mut().zip(self.raw.chunks(R::LANES)) {
-            let input = RawInput::pack::<R>(raw);
+        let players = R::LANES * TOGETHER;
+        for (blocks, raw) in self.blocks.chunks_mut(TOGETHER).zip(self.raw.chunks(players)) {
+            let mut inputs = [Input::idle(); TOGETHER];
+            for (input, raw) in inputs.iter_mut().zip(raw.chunks(R::LANES)) {
+                *input = RawInput::pack::<R>(raw);
+            }
             for _ in 0..self.ticks {
-                self.stage.tick_alone::<S, M, R>(block, &input);
+                self.stage.tick_alone::<S, M, R>(blocks, &inputs);
             }
         }
     }
@@ -222,7 +226,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         if inputs.len() != self.count {
             refuse!("inputs: expected {} rows, got {}", self.count, inputs.len());
         }
-        inputs.iter().enumerate().try_for_each(|(i, input)| input.check(i))?;
+        RawInput::check_all(inputs)?;
         let crew = Crew::new(self.threads, self.count)?;
         let (per_world, piece) = (self.per_world, self.piece());
         let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);

@@ -186,6 +186,15 @@ impl Real for F32x8 {
             _mm256_and_si256(capped, _mm256_castps_si256(number))
         })
     }
+    // Rounding first saves the way back from the integer.
+    #[inline(always)]
+    fn floor_int(self) -> I32x8 {
+        Self(unsafe { _mm256_round_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0) }).truncate()
+    }
+    #[inline(always)]
+    fn ceil_int(self) -> I32x8 {
+        Self(unsafe { _mm256_round_ps::<{ _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC }>(self.0) }).truncate()
+    }
     #[inline(always)]
     fn from_int(i: I32x8) -> Self {
         Self(unsafe { _mm256_cvtepi32_ps(i.0) })

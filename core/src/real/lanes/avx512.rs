@@ -201,6 +201,17 @@ impl Real for F32x16 {
             _mm512_maskz_mov_epi32(number, capped)
         })
     }
+    // Rounding first saves the way back from the integer.
+    #[inline(always)]
+    fn floor_int(self) -> I32x16 {
+        Self(unsafe { _mm512_roundscale_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0) })
+            .truncate()
+    }
+    #[inline(always)]
+    fn ceil_int(self) -> I32x16 {
+        Self(unsafe { _mm512_roundscale_ps::<{ _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC }>(self.0) })
+            .truncate()
+    }
     #[inline(always)]
     fn from_int(i: I32x16) -> Self {
         Self(unsafe { _mm512_cvtepi32_ps(i.0) })

@@ -62,7 +62,7 @@ class Clocked:
         batch, actions = self.agents.batch(), random_actions(self.agents.num_envs, np.int8)
 
         def timed(calls: int) -> float:
-            seconds, _, parts = time_environments(batch, actions, calls, parts=True)
+            seconds, parts = time_environments(batch, actions, calls, parts=True)
             self.parts.append({name: taken / (calls * self.units) for name, taken in parts})
             return seconds
 

@@ -4,7 +4,6 @@ Random keys and actions, drawn beforehand: drawing them is no part of a step. `l
 side by side; None leaves the choice to the package.
 """
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -22,8 +21,6 @@ from discjump.solids import Solid
 from discjump.terrains import generated
 
 ENV_ID = "discjump/Ski-v0"
-LANES = "DISCJUMP_LANES"
-"""Environment variable that chooses the lanes of what is made."""
 SETS = 8
 """Sets of keys or actions, taken in turn: few, so that they stay in cache as fresh ones would."""
 SEED = 7
@@ -36,26 +33,18 @@ WHOLE = ((-900.0, -900.0), 1800.0)
 
 
 @contextmanager
-def side_by_side(lanes: int | None) -> Iterator[None]:
-    """What is made inside steps so many players side by side, or as many as the package chooses.
+def offered(lanes: int | None) -> Iterator[None]:
+    """What is made inside may ask for lanes that this processor lacks.
 
     Raises:
-        Unavailable: this processor has no such lanes.
+        Unavailable: it did.
     """
-    before = os.environ.get(LANES)
-    if lanes is not None:
-        os.environ[LANES] = str(lanes)
     try:
         yield
     except ValueError as error:
-        if lanes is not None and LANES in str(error):
+        if lanes is not None and str(error).startswith("lanes"):
             raise Unavailable(f"this processor has no {lanes} lanes") from error
         raise
-    finally:
-        if before is None:
-            os.environ.pop(LANES, None)
-        else:
-            os.environ[LANES] = before
 
 
 @dataclass(frozen=True)
@@ -85,9 +74,14 @@ class Players:
         terrain = generated(SEED)
         if self.solids is not None:
             terrain = terrain.with_solids(towers(terrain, self.solids))
-        with side_by_side(self.lanes):
+        with offered(self.lanes):
             sim = Simulator(
-                terrain, self.count, scene=self.scene, fidelity=self.fidelity, threads=self.threads
+                terrain,
+                self.count,
+                scene=self.scene,
+                fidelity=self.fidelity,
+                threads=self.threads,
+                lanes=self.lanes,
             )
         rng = np.random.default_rng(0)
         start, (corner, side) = sim.state(), self.square
@@ -100,9 +94,9 @@ class Players:
 
         def timed(calls: int) -> float:
             sim.restore(fresh)
-            return time_players(native, keys, self.ticks, calls)[0]
+            return time_players(native, keys, self.ticks, calls)
 
-        return Ready(timed, lanes=time_players(native, keys, self.ticks, 0)[1])
+        return Ready(timed, lanes=sim.lanes)
 
     def _keys(self, sim: Simulator, rng: np.random.Generator) -> bytes:
         sets = []
@@ -142,16 +136,19 @@ class Agents:
             terrain_seeds=range(self.terrains),
             time_limit=self.time_limit,
         )
-        with side_by_side(self.lanes):
-            batch = options.batch(self.num_envs, self.autoreset, self.threads)
-        batch.reset(list(range(self.num_envs)))
+        with offered(self.lanes):
+            batch = options.batch(self.num_envs, self.autoreset, self.threads, self.lanes)
+        batch.reset(np.arange(self.num_envs, dtype=np.uint64))
         return batch
 
     def make(self) -> Ready:
         """The environments and actions of one byte."""
         batch, actions = self.batch(), random_actions(self.num_envs, np.int8)
-        lanes = time_environments(batch, actions, 0)[1]
-        return Ready(lambda calls: time_environments(batch, actions, calls)[0], batch.observation_size, lanes)
+
+        def timed(calls: int) -> float:
+            return time_environments(batch, actions, calls)[0]
+
+        return Ready(timed, batch.observation_size, batch.lanes)
 
 
 @dataclass(frozen=True)

@@ -153,16 +153,20 @@ class SkiOptions:
         """The terrains that episodes draw from."""
         return list(self.terrains) if self.terrains is not None else pool(self.terrain_seeds, self.repeating)
 
-    def batch(self, num_envs: int, autoreset: str, threads: int | None) -> SkiBatch:
+    def batch(self, num_envs: int, autoreset: str, threads: int | None, lanes: int | None = None) -> SkiBatch:
         """The simulator of `num_envs` environments.
 
         Args:
             num_envs: at least 1.
             autoreset: `next_step`, `same_step` or `disabled`.
             threads: threads that step the batch, 1 to 256; None: one per core.
+            lanes: players side by side in a register, one of the widths that the processor has; None: the
+                environment variable `DISCJUMP_LANES` says, else the processor.
         """
         if threads is not None:
             threads = _check.integer("threads", threads, 1, 256)
+        if lanes is not None:
+            lanes = _check.integer("lanes", lanes, 1, 32)
         return SkiBatch(
             self.pool(),
             _check.integer("num_envs", num_envs, 1, 2**24),
@@ -184,6 +188,7 @@ class SkiOptions:
             landing=self.landing,
             autoreset=autoreset,
             threads=threads,
+            lanes=lanes,
         )
 
 

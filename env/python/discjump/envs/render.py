@@ -55,7 +55,7 @@ class Camera:
             raise ResetNeeded("render: expected a call of reset() first: no episode is running")
         steps = list(self._track)[-int(self._points[index]) :]
         state = self._batch.state()[index]
-        return self._map(int(self._batch.status()["terrain"][index])).draw(
+        return self._map(int(self._batch.terrain_index()[index])).draw(
             path=np.array([step[index] for step in steps]),
             yaw=float(state["yaw"]),
             beacon=self._batch.goals()[index, :2],

@@ -8,7 +8,6 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
-from discjump.envs import infos
 from discjump.envs.options import SkiOptions
 from discjump.envs.task import ObservationField, SkiTask, seeds_of
 
@@ -32,6 +31,7 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
     s. An action holds for `frame_skip` ticks.
 
     Args:
+        lanes: as for many environments; no bit depends on it.
         render_mode: None or `rgb_array`, the command map.
         **options: fields of `discjump.envs.options.SkiOptions`.
 
@@ -55,12 +55,17 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 7.8125}  # type: ignore[misc]
 
-    def __init__(self, *, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(self, *, lanes: int | None = None, render_mode: str | None = None, **options: Any) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.options = SkiOptions.from_keywords(options)
         self.metadata = {**type(self).metadata, "render_fps": 1 / self.options.decision_seconds}  # type: ignore[misc]
         self._task = SkiTask(
-            self.options, 1, autoreset="disabled", threads=1, render=self.render_mode is not None
+            self.options,
+            1,
+            autoreset="disabled",
+            threads=1,
+            lanes=lanes,
+            render=self.render_mode is not None,
         )
         self.observation_space = self._task.observation_space
         self.action_space = self._task.action_space
@@ -102,8 +107,8 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
         """
         seeds = seeds_of(seed, 1)
         observations = self._task.reset(seeds, options=options)
-        super().reset(seed=seeds[0])
-        return observations[0], infos.row(infos.now(self._task.batch.status()))
+        super().reset(seed=None if seeds is None else seeds[0])
+        return observations[0], self._task.batch.infos()[0]
 
     def step(self, action: object) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """One decision.
@@ -120,15 +125,20 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
             TypeError, ValueError: the action has another dtype or shape, or is out of range; nothing has
             changed then.
         """
-        if not self._task.ready or self._task.over[0]:
+        task = self._task
+        batch = task.batch
+        if batch.halted:
             raise ResetNeeded("step: expected a call of reset() first: no episode is running")
+        if not isinstance(action, np.ndarray):
+            action = self._array(action)
+        return batch.step_one(action) if task.camera is None else task.filmed(batch.step_one, action)
+
+    def _array(self, action: object) -> NDArray[Any]:
+        """An action that came as numbers of Python's own."""
         given = np.asarray(action)
-        if not isinstance(action, np.ndarray) and self.options.actions == "box" and given.dtype.kind in "if":
-            given = given.astype(np.float32)
-        observations, rewards, terminated, truncated = self._task.step(given[np.newaxis])
-        over, batch = self._task.over[0], self._task.batch
-        info = infos.row(infos.at_end(batch.outcomes()) if over else infos.now(batch.status()))
-        return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
+        if self.options.actions == "box" and given.dtype.kind in "if":
+            return given.astype(np.float32)
+        return given
 
     def render(self) -> NDArray[np.uint8] | None:
         """The command map, (height, width, 3) uint8, north up; None without `render_mode`."""

@@ -1,8 +1,8 @@
 """What the three front ends (single, vector, stable-baselines3) share: the batch, its spaces, its seeds."""
 
 import zlib
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from gymnasium import spaces
@@ -15,6 +15,10 @@ from discjump.envs.options import SkiOptions
 from discjump.envs.render import Camera
 
 Seeds = Sequence[int | None]
+Result = TypeVar("Result")
+
+SEEDED, OVER = 1, 2
+"""Bits of a batch's flags."""
 
 
 class ObservationField(NamedTuple):
@@ -35,22 +39,28 @@ class SkiTask:
         num_envs: number of environments.
         autoreset: `next_step`, `same_step` or `disabled`.
         threads: that step the batch; None: one per core.
+        lanes: players side by side in a register; None: as many as the processor has.
         render: record the paths that pictures show.
     """
 
     def __init__(
-        self, options: SkiOptions, num_envs: int, *, autoreset: str, threads: int | None, render: bool = False
+        self,
+        options: SkiOptions,
+        num_envs: int,
+        *,
+        autoreset: str,
+        threads: int | None,
+        lanes: int | None = None,
+        render: bool = False,
     ) -> None:
         self.options = options
         self.terrains: list[Terrain] = options.pool()
         self.terrain_seeds = [terrain.seed for terrain in self.terrains]
-        self.batch = options.batch(num_envs, autoreset, threads)
+        self.batch = options.batch(num_envs, autoreset, threads, lanes)
         self.num_envs = num_envs
         self.autoreset = autoreset
-        self.over = np.zeros(num_envs, np.bool_)
-        """(num_envs,): the last step ended the episode."""
-        self._seeded = np.zeros(num_envs, np.bool_)
-        self._camera = Camera(self.batch, self.terrains, options.arrival_radius) if render else None
+        self.camera = Camera(self.batch, self.terrains, options.arrival_radius) if render else None
+        """Watches the episodes where pictures are asked for; steps must go through `filmed` then."""
 
         size, clip = self.batch.observation_size, self.batch.observation_clip
         self.observation_space = spaces.Box(-clip, clip, (size,), np.float32)
@@ -65,13 +75,18 @@ class SkiTask:
         ]
 
     @property
-    def ready(self) -> bool:
-        """Every environment was reset at least once."""
-        return bool(self._seeded.all())
+    def seeded(self) -> NDArray[np.bool_]:
+        """(num_envs,): reset at least once."""
+        return (self.batch.flags() & SEEDED).astype(np.bool_)
+
+    @property
+    def over(self) -> NDArray[np.bool_]:
+        """(num_envs,): the last step ended the episode."""
+        return (self.batch.flags() & OVER).astype(np.bool_)
 
     def reset(
         self,
-        seeds: Seeds,
+        seeds: Seeds | None,
         mask: NDArray[np.bool_] | None = None,
         options: Mapping[str, Any] | None = None,
         *,
@@ -80,67 +95,61 @@ class SkiTask:
         """Start new episodes and return the observations of all environments, (num_envs, size) float32.
 
         Args:
-            seeds: one per environment; None: its next episode, or a seed from the operating system if it
-                never had one.
+            seeds: one per environment; None (in the list too): its next episode, or a seed from the
+                operating system if it never had one.
             mask: (num_envs,), the environments to reset; None: all.
             options: see `placement.parse`.
             batched: `options` may hold one row per environment.
         """
-        where = placement.parse(options, self.terrain_seeds, self.num_envs, batched=batched)
-        chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask.copy()
+        places = placement.parse(options, self.terrain_seeds, self.num_envs, batched=batched)._asdict()
+        if seeds is None and not self.batch.fresh:
+            observations = self.batch.reset(None, mask, **places)
+        else:
+            observations = self._reset_seeded(seeds, mask, places)
+        if self.camera is not None:
+            self.camera.restart(np.ones(self.num_envs, np.bool_) if mask is None else mask)
+        return observations
+
+    def _reset_seeded(
+        self, seeds: Seeds | None, mask: NDArray[np.bool_] | None, places: dict[str, Any]
+    ) -> NDArray[np.float32]:
+        """Start new episodes, some of them with seeds of their own."""
+        seeds = [None] * self.num_envs if seeds is None else seeds
+        chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask
         given = np.array([seed is not None for seed in seeds])
         values = np.array([seed or 0 for seed in seeds], np.uint64)
-        fresh = chosen & ~given & ~self._seeded
+        fresh = chosen & ~given & ~self.seeded
         if fresh.any():
             values[fresh] = np.random.SeedSequence().generate_state(int(fresh.sum()), np.uint64)
         seeded, following = chosen & (given | fresh), chosen & ~given & ~fresh
-        observations = self._reset(values, seeded, following, where)
-        self._seeded |= chosen
-        self.over &= ~chosen
-        if self._camera is not None:
-            self._camera.restart(chosen)
-        return observations
-
-    def _reset(
-        self,
-        seeds: NDArray[np.uint64],
-        seeded: NDArray[np.bool_],
-        following: NDArray[np.bool_],
-        where: placement.Placement,
-    ) -> NDArray[np.float32]:
-        places = where._asdict()
         if not following.any():
-            return self.batch.reset(seeds, seeded, **places)
+            return self.batch.reset(values, seeded, **places)
         if not seeded.any():
             return self.batch.reset(None, following, **places)
         # Two calls must change all or nothing.
-        before = self.batch.snapshot()
+        before, flags = self.batch.snapshot(), self.batch.flags().tobytes()
         try:
-            self.batch.reset(seeds, seeded, **places)
+            self.batch.reset(values, seeded, **places)
             return self.batch.reset(None, following, **places)
         except BaseException:
             self.batch.restore(before)
+            self.batch.set_flags(flags)
             raise
 
-    def step(
-        self, actions: NDArray[Any]
-    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
-        """One decision: observations (n, size) float32, rewards (n,) float64, terminated and truncated (n,)
-        bool.
-        """
-        result = self.batch.step(actions)
-        ended = result[2] | result[3]
-        if self._camera is not None:
-            if self.autoreset == "same_step":
-                self._camera.advance(ended)
-            else:
-                self._camera.advance(self.over if self.autoreset == "next_step" else np.zeros_like(ended))
-        self.over = ended
+    def filmed(self, step: Callable[[Any], Result], actions: object) -> Result:
+        """What `step(actions)` gives, and a picture's worth of it remembered."""
+        assert self.camera is not None
+        before = self.over
+        result = step(actions)
+        if self.autoreset == "same_step":
+            self.camera.advance(self.over)
+        else:
+            self.camera.advance(before if self.autoreset == "next_step" else np.zeros_like(before))
         return result
 
     def snapshot(self) -> bytes:
         """The batch, a byte per environment (1: was reset once, 2: its episode is over) and their CRC-32."""
-        flags = (self._seeded + 2 * self.over).astype(np.uint8).tobytes()
+        flags = self.batch.flags().tobytes()
         return self.batch.snapshot() + flags + zlib.crc32(flags).to_bytes(4, "little")
 
     def restore(self, snapshot: bytes) -> None:
@@ -161,25 +170,24 @@ class SkiTask:
                 f"{len(snapshot)} bytes whose checksum does not match"
             )
         self.batch.restore(batch)
-        status = np.frombuffer(flags, np.uint8)
-        self._seeded, self.over = (status & 1).astype(np.bool_), (status & 2).astype(np.bool_)
-        if self._camera is not None:
-            self._camera.restart(np.ones(self.num_envs, np.bool_))
+        self.batch.set_flags(flags)
+        if self.camera is not None:
+            self.camera.restart(np.ones(self.num_envs, np.bool_))
 
     def render(self, index: int = 0) -> NDArray[np.uint8]:
         """The command map of one environment, (height, width, 3) uint8."""
-        if self._camera is None:
+        if self.camera is None:
             raise ValueError("render_mode: expected 'rgb_array' for pictures, got None")
-        return self._camera.picture(index)
+        return self.camera.picture(index)
 
     def terrain(self, index: int = 0) -> Terrain:
         """The terrain of one environment's episode."""
-        return self.terrains[int(self.batch.status()["terrain"][index])]
+        return self.terrains[int(self.batch.terrain_index()[index])]
 
 
-def seeds_of(seed: object, num_envs: int) -> Seeds:
-    """Seeds of all environments: an int s means s, s + 1, ...; a list is taken as given; None is the next
-    episode.
+def seeds_of(seed: object, num_envs: int) -> Seeds | None:
+    """Seeds of all environments: an int s means s, s + 1, ...; a list is taken as given; None (in the
+    list too) is the next episode.
 
     Raises:
         TypeError: neither integer, sequence of integers and None, nor None.
@@ -192,7 +200,7 @@ def seeds_of(seed: object, num_envs: int) -> Seeds:
     ValueError: seed: expected 3 seeds, one per environment, got 2
     """
     if seed is None:
-        return [None] * num_envs
+        return None
     if isinstance(seed, (Sequence, np.ndarray)) and not isinstance(seed, (str, bytes)):
         if len(seed) != num_envs:
             raise ValueError(f"seed: expected {num_envs} seeds, one per environment, got {len(seed)}")

@@ -1,6 +1,6 @@
 """`discjump/Ski-v0` for many environments, stepped together in Rust."""
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NoReturn
 
 import numpy as np
 from gymnasium.error import ResetNeeded
@@ -9,7 +9,6 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
-from discjump.envs import infos
 from discjump.envs.options import SkiOptions
 from discjump.envs.ski import RENDER_MODES, checked_render_mode
 from discjump.envs.task import ObservationField, SkiTask, seeds_of
@@ -37,6 +36,8 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             the step that ends an episode returns it already, and `info["final_obs"]`, `info["final_info"]`
             hold what was last. `DISABLED`: reset by hand with `options={"reset_mask": ...}`.
         threads: threads that step the batch; None: one per core.
+        lanes: players side by side in a register: 1, 8 or 16, as far as the processor has them; None: the
+            environment variable `DISCJUMP_LANES` says, else the processor. No bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
         **options: fields of `discjump.envs.options.SkiOptions`.
 
@@ -66,6 +67,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         threads: int | None = None,
+        lanes: int | None = None,
         render_mode: str | None = None,
         **options: Any,
     ) -> None:
@@ -82,6 +84,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             num_envs,
             autoreset=AUTORESET[self.autoreset_mode],
             threads=threads,
+            lanes=lanes,
             render=self.render_mode is not None,
         )
         self.num_envs = num_envs
@@ -103,7 +106,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
     @property
     def terrain_index(self) -> NDArray[np.int64]:
         """(num_envs,): which terrain of the pool each episode runs on."""
-        return self._task.batch.status()["terrain"].astype(np.int64)
+        return self._task.batch.terrain_index()
 
     def state(self) -> NDArray[np.void]:
         """The players, (num_envs,), a copy: position (m), velocity (m/s), yaw (rad), energy and so on."""
@@ -133,8 +136,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         observations = self._task.reset(seeds_of(seed, self.num_envs), mask, options, batched=True)
         if isinstance(seed, (int, np.integer)):
             super().reset(seed=int(seed))
-        chosen = np.ones(self.num_envs, np.bool_) if mask is None else mask
-        return observations, infos.masked(infos.now(self._task.batch.status()), chosen)
+        return observations, self._task.batch.info(mask)
 
     def step(self, actions: NDArray[Any]) -> Step:
         """One decision of every environment.
@@ -144,7 +146,8 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
 
         Returns:
             Observations (num_envs, size) float32, rewards (num_envs,) float64, terminations and truncations
-            (num_envs,) bool, info: columns as in `discjump.envs.infos` with gymnasium's `_key` masks.
+            (num_envs,) bool, info: columns as in `discjump.envs.infos` with gymnasium's `_key` masks. Masks
+            that are true everywhere are one array, which is read-only.
 
         Raises:
             gymnasium.error.ResetNeeded: before the first reset; with `DISABLED`, while an episode that ended
@@ -152,39 +155,20 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             range; nothing has changed then.
         """
         task = self._task
-        if not task.ready:
+        batch = task.batch
+        if batch.halted:
+            self._refuse()
+        return batch.step(actions) if task.camera is None else task.filmed(batch.step, actions)
+
+    def _refuse(self) -> NoReturn:
+        """Say why no step can be taken."""
+        if self._task.batch.fresh:
             raise ResetNeeded("step: expected a call of reset() of every environment first")
-        if self.autoreset_mode is AutoresetMode.DISABLED and task.over.any():
-            ended = np.flatnonzero(task.over)
-            raise ResetNeeded(
-                f"step: expected a reset of the {len(ended)} environments whose episode ended first "
-                f"(the first of them is {ended[0]})"
-            )
-        observations, rewards, terminations, truncations = task.step(np.asarray(actions))
-        return observations, rewards, terminations, truncations, self._info()
-
-    def _info(self) -> dict[str, Any]:
-        batch = self._task.batch
-        rows = batch.finished()
-        columns = infos.now(batch.status())
-        everyone = np.ones(self.num_envs, np.bool_)
-        if not len(rows):
-            return infos.masked(columns, everyone)
-
-        ended = np.zeros(self.num_envs, np.bool_)
-        ended[rows] = True
-        last = infos.spread(infos.at_end(batch.outcomes()), rows, self.num_envs)
-        if self.autoreset_mode is AutoresetMode.SAME_STEP:
-            final = np.full(self.num_envs, None, dtype=object)
-            for row, observation in zip(rows, batch.final_observations(), strict=True):
-                final[row] = observation
-            return infos.masked(columns, everyone) | {
-                "final_obs": final,
-                "_final_obs": ended.copy(),
-                "final_info": infos.masked(last, ended),
-                "_final_info": ended,
-            }
-        return infos.masked(columns, everyone) | infos.masked({key: last[key] for key in infos.END}, ended)
+        ended = np.flatnonzero(self._task.over)
+        raise ResetNeeded(
+            f"step: expected a reset of the {len(ended)} environments whose episode ended first "
+            f"(the first of them is {ended[0]})"
+        )
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """The command map of every environment, each (height, width, 3) uint8; None without `render_mode`."""
