@@ -71,7 +71,7 @@ def calls() -> Iterator[Figure]:
     what = "end and reset of one environment in a step of 4,096, Rust"
     yield beside(what, replace(endless, time_limit=ENDED), endless, per_unit=True, asked=2)
     for size in (64, MEDIUM):
-        yield call(f"reset(mask of one of {size:,}), Rust", Resets(size), 2 if size == 64 else None)
+        yield call(f"reset(mask of one of {size:,}), Rust", Resets(size), 2)
         yield call(f"reset(mask of one of {size:,}), VectorEnv", Resets(size, gymnasium=True))
 
 
