@@ -23,7 +23,7 @@ export PATH := $(VENV)/bin:$(PATH)
 unexport VIRTUAL_ENV PYTHONHOME PYTHONPATH CONDA_PREFIX
 
 # Directories are listed beside the files, so that a deleted file counts as a change.
-NATIVE_SOURCES := $(shell find core/src env/src) Cargo.toml Cargo.lock core/Cargo.toml env/Cargo.toml pyproject.toml
+NATIVE_SOURCES := $(shell find core/src env/src) .cargo/config.toml Cargo.toml Cargo.lock core/Cargo.toml env/Cargo.toml pyproject.toml
 
 # A stamp without what it stands for (the extension was deleted by hand, say) is no stamp.
 ifeq ($(wildcard env/python/discjump/_native*.so),)
@@ -33,7 +33,7 @@ endif
 .PHONY: help
 help: ## This list
 	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sort \
-	  | awk -F ':.*## ' '{ printf "  make %-12s %s\n", $$1, $$2 }'
+	  | awk -F ':.*## ' '{ printf "  make %-17s %s\n", $$1, $$2 }'
 
 # ---------------------------------------------------------------------------------------------- set-up
 
@@ -137,6 +137,13 @@ stubtest: setup
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml discjump._native
 
 # ---------------------------------------------------------------------------------------------- the rest
+
+.PHONY: instructions instructions-anew
+instructions: setup ## Instructions of a tick and of a step, held to the committed counts
+	$(PY) tools/instructions.py
+
+instructions-anew: setup ## The same, committed anew
+	$(PY) tools/instructions.py --write
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile

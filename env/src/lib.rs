@@ -4,6 +4,7 @@
 //! * `solids`: what stands on one
 //! * `simulator`: `Simulator`, bodies without a task
 //! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `measure`: both stepped against the clock, without Python in the loop
 //! * `blast`: the explosion formulas for arrays
 //! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
@@ -13,6 +14,7 @@
 mod arrays;
 mod blast;
 mod errors;
+mod measure;
 mod physics;
 mod pools;
 mod simulator;
@@ -27,6 +29,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::blast::blast_falloff;
+    #[pymodule_export]
+    use crate::measure::{time_environments, time_players, time_resets};
     #[pymodule_export]
     use crate::simulator::{Simulator, scenes};
     #[pymodule_export]

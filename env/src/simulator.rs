@@ -12,12 +12,12 @@ use pyo3::types::PyBytes;
 const BURST: usize = 200_000;
 
 /// Bytes of one input: the aligned layout of `discjump.INPUT`.
-const INPUT_BYTES: usize = size_of::<RawInput>();
+pub const INPUT_BYTES: usize = size_of::<RawInput>();
 
 /// Private: a batch of players in one scene and tier.
 #[pyclass(module = "discjump._native")]
 pub struct Simulator {
-    bodies: Box<dyn Bodies>,
+    pub(crate) bodies: Box<dyn Bodies>,
 }
 
 impl Simulator {
@@ -182,7 +182,8 @@ pub fn scenes() -> Vec<(&'static str, Vec<&'static str>, Vec<&'static str>)> {
     discjump_core::scene::scenes().into_iter().map(|s| (s.name, s.models, s.leaves_out)).collect()
 }
 
-fn read_input(bytes: &[u8]) -> RawInput {
+/// One input from its bytes.
+pub fn read_input(bytes: &[u8]) -> RawInput {
     let real = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().expect("8 bytes"));
     RawInput {
         forward: bytes[0].cast_signed(),

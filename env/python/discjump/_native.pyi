@@ -9,7 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 from discjump.simulator import Physics
 from discjump.solids import Solid
 
-__all__ = ["Simulator", "SkiBatch", "Terrain", "blast_falloff", "load_mesh", "scenes"]
+__all__ = [
+    "Simulator",
+    "SkiBatch",
+    "Terrain",
+    "blast_falloff",
+    "load_mesh",
+    "scenes",
+    "time_environments",
+    "time_players",
+    "time_resets",
+]
 
 def blast_falloff(
     distance: NDArray[np.float64], formula: str, radius: float, min_box: float, cutoff: str
@@ -177,3 +187,8 @@ class SkiBatch:
 
 def load_mesh(path: str) -> tuple[list[list[float]], list[list[int]]]: ...
 def scenes() -> list[tuple[str, list[str], list[str]]]: ...
+def time_environments(
+    batch: SkiBatch, actions: NDArray[np.int8], calls: int, *, parts: bool = False
+) -> tuple[float, list[tuple[str, float]]]: ...
+def time_players(simulator: Simulator, inputs: bytes, ticks: int, calls: int) -> float: ...
+def time_resets(batch: SkiBatch, calls: int) -> float: ...

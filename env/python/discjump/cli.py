@@ -9,7 +9,7 @@ import click
 
 from discjump import __version__
 from discjump.accuracy.command import accuracy
-from discjump.bench_command import bench
+from discjump.bench.command import bench
 from discjump.falloff_command import falloff
 from discjump.terrain_command import terrain
 

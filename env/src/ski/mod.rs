@@ -33,7 +33,7 @@ use step::{FlatStep, Outputs, SingleStep, Step};
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
 pub struct SkiBatch {
-    batch: Box<dyn Environments>,
+    pub(crate) batch: Box<dyn Environments>,
     terrains: usize,
     frame_skip: usize,
     autoreset: Autoreset,
