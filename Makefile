@@ -140,10 +140,10 @@ stubtest: setup
 
 .PHONY: instructions instructions-anew
 instructions: setup ## Instructions of a tick and of a step, held to the committed counts
-	$(PY) tools/instructions.py
+	$(PY) .ci/instructions.py
 
 instructions-anew: setup ## The same, committed anew
-	$(PY) tools/instructions.py --write
+	$(PY) .ci/instructions.py --write
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile

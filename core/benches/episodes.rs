@@ -134,7 +134,7 @@ fn main() {
         println!("{} {:.2} ns per agent step", runner.batch.digest(), time / number(2) as f64);
         return;
     }
-    let mut runners: Vec<_> = [1, 8, 16, 32].into_iter().filter_map(|lanes| bench.runner(lanes)).collect();
+    let mut runners: Vec<_> = [1, 8, 16].into_iter().filter_map(|lanes| bench.runner(lanes)).collect();
     let mut times = vec![Vec::new(); runners.len()];
     for call in 0..WARM_UP + CALLS {
         for (runner, times) in runners.iter_mut().zip(&mut times) {

@@ -75,7 +75,9 @@ fn agree(setup: &SimulatorSetup<'_>, ticks: u64) -> (usize, String) {
     let players = setup.players;
     let make = |lanes| {
         let mut crew = Crew::new(&SimulatorSetup { lanes: Some(lanes), ..*setup });
-        assert_eq!(crew.sim.lanes(), lanes);
+        // Two registers side by side are compiled where they are used most.
+        let wide = (setup.scene, setup.fidelity) == ("ski", "authentic");
+        assert_eq!(crew.sim.lanes(), if wide { lanes } else { lanes.min(16) });
         scatter(&mut crew, players);
         crew.sim
     };

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// The widths that this processor has.
 fn widths() -> Vec<usize> {
-    [1, 8, 16, 32]
+    [1, 8, 16]
         .into_iter()
         .filter(|&lanes| SkiEnvironments { lanes: Some(lanes), ..ski(1, "fast") }.build().is_ok())
         .collect()

@@ -1,4 +1,4 @@
-//! Work whose instructions `tools/instructions.py` counts: the same on every machine, on one thread, and
+//! Work whose instructions `.ci/instructions.py` counts: the same on every machine, on one thread, and
 //! twice as long with twice the calls, so that the difference of two lengths is the steps and nothing else.
 //!
 //! `instructions ticks|steps CALLS`: so many calls of 4 ticks of 256 players without a task, or decisions of 1

@@ -8,7 +8,7 @@ use crate::flight::{fire, fly};
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
 use crate::player::{Place, Player};
-use crate::real::{Mask, Real, Scalar, V3};
+use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 use crate::solids::Solids;
@@ -292,7 +292,20 @@ impl<'a, T: Scalar> Stage<'a, T> {
         velocity: V3<R>,
         near: &mut R::Mask,
     ) {
-        for lane in (0..R::LANES).filter(|&lane| chosen.lane(lane)) {
+        let mut candidates = chosen;
+        if R::LANES > 1 {
+            let range = &self.range;
+            let speed = velocity.x.abs() + velocity.y.abs() + velocity.z.abs();
+            let reach = (speed + R::lit(range.gain)) * R::lit(time) + R::lit(range.size);
+            let zero = R::Int::splat(0);
+            let home = at.tile_x.eq(zero).and(at.tile_y.eq(zero));
+            let maybe = solids.may_be_near::<R>(range.centre, at.position, reach);
+            candidates = chosen.and(home.not().or(maybe));
+        }
+        let mut bits = candidates.bits();
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
             if self.reaches(solids, time, &at.lane(lane), velocity.lane(lane)) {
                 near.set_lane(lane, true);
             }

@@ -31,6 +31,17 @@ pub trait Work {
     fn run(self) -> Self::Output;
 }
 
+/// A slice of the type that it already has, which generic code knows by other means.
+///
+/// # Panics
+/// If it has another.
+#[inline(always)]
+pub(crate) fn same_type<F: 'static, T: 'static>(values: &[F]) -> &[T] {
+    assert_eq!(core::any::TypeId::of::<F>(), core::any::TypeId::of::<T>(), "one type");
+    // SAFETY: F and T are the same type, as just checked.
+    unsafe { core::slice::from_raw_parts(values.as_ptr().cast(), values.len()) }
+}
+
 /// A real number, or several players' numbers side by side.
 pub trait Real:
     Copy

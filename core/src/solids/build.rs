@@ -6,8 +6,9 @@ use super::shapes;
 use super::solid::{MAX_TRIANGLES, Shape, Solid};
 use super::triangle::Triangle;
 use crate::error::{InputError, refuse};
+use crate::real::{Real, V3};
 use crate::terrain::Grid;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use xxhash_rust::xxh3::Xxh3;
@@ -113,6 +114,13 @@ impl Solids {
         (reach > Near::MARGIN || self.near.close(x, y, z, reach)) && self.near_bounds(x, y, z, reach)
     }
 
+    /// Who of some lanes must be asked [`Solids::near`] one by one, of players at a place in m from `centre`
+    /// and within some kilometres of it: all for whom it is true, and few others.
+    #[inline(always)]
+    pub(crate) fn may_be_near<R: Real>(&self, centre: DVec2, place: V3<R>, reach: R) -> R::Mask {
+        self.near.may_be_close(centre, place, reach)
+    }
+
     #[cold]
     fn near_bounds(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
         let point = DVec3::new(x, y, z);
@@ -154,7 +162,8 @@ fn append(
         refuse!("{what}: position: expected three finite numbers, got {:?}", placement.position);
     }
     let rotation = placement.rotation;
-    if !(rotation.length_squared() - 1.0).abs().le(&1e-6) {
+    let unit = (rotation.length_squared() - 1.0).abs() <= 1e-6;
+    if !unit {
         refuse!("{what}: rotation: expected a unit quaternion, got {rotation:?}");
     }
     if !(placement.scale.is_finite() && placement.scale > 0.0) {

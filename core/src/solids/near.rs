@@ -1,6 +1,7 @@
 //! The broad phase: a grid over the ground that tells, with one load, who is far from every solid.
 
 use super::triangle::Triangle;
+use crate::real::{Int, Mask, Real, V3, same_type};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Least side of a cell, m.
@@ -9,6 +10,8 @@ const CELL: f64 = 16.0;
 const MOST: usize = 256;
 /// Most cells along a side that one triangle is drawn into, before it goes to a coarser level.
 const DRAWN: usize = 16;
+/// More than lanes may lose to the rounding of f32 within some kilometres of the map's centre, m.
+const ROUNDED: f64 = 0.01;
 /// Added around every triangle against rounding, m.
 const SLACK: f64 = 1e-3;
 
@@ -44,11 +47,37 @@ impl Near {
         let [cols, rows] = (high - low).to_array().map(|side| (side / size) as usize + 1);
         let drawing = Drawing::new(triangles, low, size, cols, rows);
         let spread = (Self::MARGIN / size).ceil() as usize;
-        Self { low, inverse: 1.0 / size, cols, rows, cells: dilated(&drawing.cells(), cols, rows, spread) }
+        let mut cells = dilated(&drawing.cells(), cols, rows, spread);
+        // Lanes read a cell together with the next one.
+        cells.push(NOTHING);
+        Self { low, inverse: 1.0 / size, cols, rows, cells }
     }
 
     pub(super) fn bytes(&self) -> usize {
         self.cells.len() * size_of::<Range>()
+    }
+
+    /// Who may have anything within reach along each axis, of players at a place in m from `centre`: all
+    /// whom [`Near::close`] would name, and few others. For lanes, in f32, whose rounding within some
+    /// kilometres is far below the slack.
+    #[inline(always)]
+    pub(super) fn may_be_close<R: Real>(&self, centre: DVec2, place: V3<R>, reach: R) -> R::Mask {
+        let reach = reach + R::lit(ROUNDED);
+        let far = R::lit(Self::MARGIN).lt(reach);
+        let low = self.low - centre;
+        let u = (place.x - R::lit(low.x)) * R::lit(self.inverse);
+        let v = (place.y - R::lit(low.y)) * R::lit(self.inverse);
+        let (i, j) = (u.floor_int(), v.floor_int());
+        let (zero, cols, rows) = (R::Int::splat(0), self.cols as i32, self.rows as i32);
+        let outside = i.lt(zero).or(R::Int::splat(cols - 1).lt(i));
+        let outside = outside.or(j.lt(zero)).or(R::Int::splat(rows - 1).lt(j));
+        if !outside.not().any() {
+            return far;
+        }
+        let cell = j.clamp(0, rows - 1) * R::Int::splat(cols) + i.clamp(0, cols - 1);
+        let [lowest, highest, _, _] = R::gather_square(same_type(&self.cells), cell);
+        let clear = (place.z + reach).lt(lowest).or(highest.lt(place.z - reach));
+        far.or(outside.or(clear).not())
     }
 
     /// Whether anything stands within `reach`, at most the margin, of a point along each axis.

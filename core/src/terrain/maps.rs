@@ -3,7 +3,7 @@
 use super::heightfield::{Edge, Grid, Heightfield};
 use super::surface::Surface;
 use crate::error::InputError;
-use crate::real::Scalar;
+use crate::real::{Scalar, same_type};
 use glam::{DVec2, DVec3, IVec2};
 use xxhash_rust::xxh3::Xxh3;
 
@@ -119,7 +119,7 @@ impl Maps {
     /// The kernel's view in the arithmetic `T`.
     #[must_use]
     pub fn surface<T: Scalar>(&self) -> Surface<'_, T> {
-        let pairs = if T::DOUBLE { cast(&self.pairs64) } else { cast(&self.pairs32) };
+        let pairs = if T::DOUBLE { same_type(&self.pairs64) } else { same_type(&self.pairs32) };
         Surface::new(pairs, &self.grid, self.highest)
     }
 
@@ -177,11 +177,4 @@ impl Maps {
     pub fn size(&self) -> DVec2 {
         DVec2::from(self.grid.size())
     }
-}
-
-/// A slice of the type it already has, which the caller knows by `Scalar::DOUBLE`.
-fn cast<F: 'static, T: 'static>(values: &[F]) -> &[T] {
-    assert_eq!(core::any::TypeId::of::<F>(), core::any::TypeId::of::<T>());
-    // SAFETY: F and T are the same type, as just checked.
-    unsafe { core::slice::from_raw_parts(values.as_ptr().cast(), values.len()) }
 }

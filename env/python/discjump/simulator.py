@@ -145,7 +145,7 @@ class Simulator:
                 the first one, and so on. They block each other; discs and explosions act on all of them.
             weapon: "disc", "grenade" or "mortar", where the scene models discs.
             ammo: shots of a fresh player; None for the weapon's own number, 15.
-            lanes: players side by side in a register: 1, 8 or 16, as far as the processor has them; None: the
+            lanes: most players side by side: 1, 8, 16 or 32, as far as the processor has them; None: the
                 environment variable `DISCJUMP_LANES` says, else the processor. The bits do not depend on it.
                 Only "authentic", "swept" and "fast" have lanes, and only where every player is alone in his
                 world.

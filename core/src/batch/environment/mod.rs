@@ -124,8 +124,8 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
 
     /// After a reset or a restore.
     fn note_phases(&mut self) {
-        let ready = self.each().all(|(_, _, episode)| episode.phase != Phase::Unseeded);
-        self.ready = ready;
+        let phases = self.blocks.iter().flat_map(|block| block.episodes.phase.as_ref());
+        self.ready = self.ready || phases.take(self.setup.count).all(|&phase| phase != Phase::Unseeded);
         self.finished.clear();
         self.final_observations.clear();
     }
@@ -282,6 +282,7 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
             let (run, episode) = episode::read(tail);
             self.put(i, &Begun { player, run, episode });
         }
+        self.ready = false;
         self.note_phases();
         self.broken = false;
         Ok(())

@@ -6,7 +6,7 @@ use crate::error::{InputError, refuse};
 use crate::movement::{Engine, Fast, Movement, Sliced, Swept};
 use crate::observe::SkiObservation;
 #[cfg(target_arch = "x86_64")]
-use crate::real::lanes::{F32x8, F32x16, Two};
+use crate::real::lanes::{F32x8, F32x16};
 use crate::real::lanes::{Width, lane_width};
 use crate::rules::Physics;
 use crate::scene::Ski;
@@ -45,9 +45,9 @@ pub struct SkiEnvironments {
     pub autoreset: Autoreset,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
-    /// Environments stepped side by side: 1, 8 or 16. Where absent the environment variable
-    /// `DISCJUMP_LANES` says, else the processor: as many as it can. No bit of any result depends on it.
-    /// "reference" and "engine" have no lanes.
+    /// Most environments stepped side by side: 1, 8, or 16, which 32 means too. Where absent the environment
+    /// variable `DISCJUMP_LANES` says, else the processor: as many as it can. No bit of any result depends
+    /// on it. "reference" and "engine" have no lanes. [`Environments::lanes`] says what is in use.
     pub lanes: Option<usize>,
 }
 
@@ -77,9 +77,8 @@ impl SkiEnvironments {
             #[cfg(target_arch = "x86_64")]
             Width::Eight => Batch::<Ski, M, F32x8>::boxed(self),
             #[cfg(target_arch = "x86_64")]
-            Width::Sixteen => Batch::<Ski, M, F32x16>::boxed(self),
-            #[cfg(target_arch = "x86_64")]
-            Width::ThirtyTwo => Batch::<Ski, M, Two<F32x16>>::boxed(self),
+            // Two registers are slower here: observations are bound by work, not by waiting.
+            Width::Sixteen | Width::ThirtyTwo => Batch::<Ski, M, F32x16>::boxed(self),
         }
     }
 

@@ -59,10 +59,11 @@ pub struct SimulatorSetup<'a> {
     pub tick_ms: u32,
     /// Threads; one per core where absent.
     pub threads: Option<usize>,
-    /// Players stepped side by side: 1, 8, 16, or 32 (two registers of 16). Where absent the environment
+    /// Most players stepped side by side: 1, 8, 16, or 32 (two registers of 16). Where absent the environment
     /// variable `DISCJUMP_LANES` says, else processor and number of players: as many as gain time. No bit
     /// of any result depends on it. Only "authentic", "swept" and "fast" have lanes, and only where every
-    /// player is alone in his world.
+    /// player is alone in his world; only "authentic" in the ski scene has 32, the others take 16 then.
+    /// [`Bodies::lanes`] says what is in use.
     pub lanes: Option<usize>,
 }
 
@@ -101,6 +102,10 @@ impl SimulatorSetup<'_> {
     /// Names the argument that is out of range or unknown, with what was expected.
     pub fn build(&self) -> Result<Box<dyn Bodies>, InputError> {
         match self.scene {
+            #[cfg(target_arch = "x86_64")]
+            "ski" if self.fidelity == "authentic" && self.width()? == Width::ThirtyTwo => {
+                self.kernel::<Ski, Sliced, Two<F32x16>>()
+            }
             "ski" => self.tier::<Ski>(),
             "sandbox" => self.tier::<Sandbox>(),
             "disc_jump" => self.tier::<DiscJump>(),
@@ -127,19 +132,22 @@ impl SimulatorSetup<'_> {
         }
     }
 
+    /// How many players a tier that has lanes steps side by side.
+    fn width(&self) -> Result<Width, InputError> {
+        if self.players_per_world > 1 {
+            return Ok(Width::One);
+        }
+        lane_width(self.lanes, self.players)
+    }
+
     /// The kernel of a tier that has lanes.
     fn side_by_side<S: Scene, M: Movement>(&self) -> Result<Box<dyn Bodies>, InputError> {
-        if self.players_per_world > 1 {
-            return self.kernel::<S, M, f32>();
-        }
-        match lane_width(self.lanes, self.players)? {
+        match self.width()? {
             Width::One => self.kernel::<S, M, f32>(),
             #[cfg(target_arch = "x86_64")]
             Width::Eight => self.kernel::<S, M, F32x8>(),
             #[cfg(target_arch = "x86_64")]
-            Width::Sixteen => self.kernel::<S, M, F32x16>(),
-            #[cfg(target_arch = "x86_64")]
-            Width::ThirtyTwo => self.kernel::<S, M, Two<F32x16>>(),
+            Width::Sixteen | Width::ThirtyTwo => self.kernel::<S, M, F32x16>(),
         }
     }
 

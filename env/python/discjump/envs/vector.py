@@ -36,7 +36,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             the step that ends an episode returns it already, and `info["final_obs"]`, `info["final_info"]`
             hold what was last. `DISABLED`: reset by hand with `options={"reset_mask": ...}`.
         threads: threads that step the batch; None: one per core.
-        lanes: players side by side in a register: 1, 8 or 16, as far as the processor has them; None: the
+        lanes: most players side by side: 1, 8, 16 or 32, as far as the processor has them; None: the
             environment variable `DISCJUMP_LANES` says, else the processor. No bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
         **options: fields of `discjump.envs.options.SkiOptions`.

@@ -1,7 +1,7 @@
 """How many instructions a player-tick and an agent step take, held to committed counts.
 
     make instructions       fails where a count is more than 5% above the committed one
-    make instructions-anew  measures and commits anew (to tools/instructions.json)
+    make instructions-anew  measures and commits anew (to .ci/instructions.json)
 
 Times on a shared machine wander by tens of percent; instructions do not. Plain code and AVX2 are counted by
 callgrind as they run. It knows no AVX-512, so of these kernels the instructions in the binary are counted.
@@ -25,7 +25,7 @@ RUNS = {"ticks": ("player-tick", 256 * 4, (20, 120)), "steps": ("agent step of o
 KERNELS = {1: "plain", 8: "AVX2"}
 """What callgrind can run, by lanes."""
 
-REMEDY = "if that is meant, make instructions-anew and commit tools/instructions.json"
+REMEDY = "if that is meant, make instructions-anew and commit .ci/instructions.json"
 
 Counts = dict[str, float]
 
