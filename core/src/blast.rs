@@ -83,6 +83,23 @@ pub fn damage_share<R: Real>(d0: R, min_box: R, radius: R, cutoff: Cutoff) -> R 
     R::select(reached, R::lit(1.0) - d / radius, R::zero())
 }
 
+/// The way from a blast to the middle of a player's box, m, and whose box meets the cube about it; arguments
+/// as for [`strike`], which leaves all others as they are.
+#[inline(always)]
+pub fn meets<S: Scene, R: Real>(
+    p: &Player<S, R>,
+    at: V3<R>,
+    struck: R::Mask,
+    explosive: &Explosive<R::Scalar>,
+    rules: &Rules<R::Scalar>,
+) -> (V3<R>, R::Mask) {
+    let (width, height) = (R::splat(rules.half_width), R::splat(rules.height) * R::lit(0.5));
+    let radius = R::splat(explosive.radius);
+    let away = p.position + V3::up() * height - at;
+    let beside = away.x.abs().le(width + radius).and(away.y.abs().le(width + radius));
+    (away, struck.and(beside).and(away.z.abs().le(height + radius)))
+}
+
 /// Pushes and hurts a player where `struck` is set. `at` is the blast in the player's local frame, m
 /// (the caller resolves tiles); a NaN there strikes nobody. `coverage` is the share of the body that
 /// the blast sees; see [`coverage_on_terrain`] and [`body_points`].
@@ -99,12 +116,9 @@ pub fn strike<S: Scene, R: Real>(
     explosive: &Explosive<R::Scalar>,
     rules: &Rules<R::Scalar>,
 ) {
-    let half = R::lit(0.5);
-    let (width, height) = (R::splat(rules.half_width), R::splat(rules.height) * half);
+    let (away, meets) = meets(p, at, struck, explosive, rules);
+    let (width, height) = (R::splat(rules.half_width), R::splat(rules.height) * R::lit(0.5));
     let radius = R::splat(explosive.radius);
-    let away = p.position + V3::up() * height - at;
-    let beside = away.x.abs().le(width + radius).and(away.y.abs().le(width + radius));
-    let meets = struck.and(beside).and(away.z.abs().le(height + radius));
 
     let d0 = away.length();
     let min_box = (width + width).min(height + height);

@@ -7,7 +7,7 @@
 
 use crate::error::InputError;
 use rayon::ThreadPool;
-use std::sync::atomic::{AtomicPtr, Ordering};
+use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Most threads a batch may ask for.
@@ -74,6 +74,18 @@ fn pool(threads: usize) -> Result<&'static ThreadPool, InputError> {
     Ok(node.pool.get_or_init(|| pool))
 }
 
+/// Looks at the others' work before the caller goes to sleep: about as long as a piece takes.
+const LOOKS: u32 = 2000;
+
+/// Says, also after a panic, that a thread has no more work.
+struct Done<'a>(&'a AtomicUsize);
+
+impl Drop for Done<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
 /// Who steps a batch: the caller's thread, and a pool beside it where that pays.
 #[derive(Clone, Copy)]
 pub(super) struct Crew {
@@ -104,6 +116,7 @@ impl Crew {
             return;
         };
         let pieces = Mutex::new(pieces);
+        let at_work = AtomicUsize::new(0);
         let toil = || {
             loop {
                 // The lock is held for the taking only, and nothing panics under it.
@@ -114,9 +127,19 @@ impl Crew {
         };
         pool.in_place_scope(|scope| {
             for _ in 0..helpers {
-                scope.spawn(|_| toil());
+                scope.spawn(|_| {
+                    at_work.fetch_add(1, Ordering::Relaxed);
+                    let _done = Done(&at_work);
+                    toil();
+                });
             }
             toil();
+            // The others are in their last pieces: to sleep and be woken would take longer than they do.
+            let mut looks = 0;
+            while at_work.load(Ordering::Relaxed) > 0 && looks < LOOKS {
+                core::hint::spin_loop();
+                looks += 1;
+            }
         });
     }
 }

@@ -3,7 +3,7 @@
 
 use super::neighbourhood::{Neighbourhood, Stand};
 use crate::arms::{Arms, Arsenal, Projectile};
-use crate::blast::{Explosive, body_points, coverage_on_terrain, seen_from, strike};
+use crate::blast::{Explosive, body_points, coverage_on_terrain, meets, seen_from, strike};
 use crate::flight::{fire, fly};
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
@@ -65,6 +65,7 @@ const DISC_CLOCK: (f64, f64) = (0.033, 1.0 / (30.0 * 0.033));
 const STEP_UP: f64 = 1.0;
 
 /// What all worlds of a batch have in common.
+#[derive(Clone, Copy)]
 pub(super) struct Stage<'a, T: Scalar> {
     pub(super) surface: Surface<'a, T>,
     pub(super) maps: &'a Maps,
@@ -76,6 +77,7 @@ pub(super) struct Stage<'a, T: Scalar> {
 }
 
 /// What the broad phase asks of every player in every tick, worked out once.
+#[derive(Clone, Copy)]
 struct Range {
     /// World coordinates of local (0, 0) in tile (0, 0), m.
     centre: DVec2,
@@ -221,8 +223,11 @@ impl<'a, T: Scalar> Stage<'a, T> {
         shot: &Projectile<R>,
         burst: R::Mask,
     ) {
+        let at = seen_from(p, &shot.place(p.map), &self.surface);
         if S::SOLIDS && self.solids.is_some() {
-            for lane in (0..R::LANES).filter(|&lane| burst.lane(lane)) {
+            // Most bursts are too far away to be felt, whatever they see.
+            let (_, felt) = meets(p, at, burst, &self.arsenal.explosive, self.rules);
+            for lane in (0..R::LANES).filter(|&lane| felt.lane(lane)) {
                 let mut one = p.lane(lane);
                 let world = self.around(&[], 0);
                 self.suffer(&mut one, &shot.lane(lane), &world);
@@ -230,7 +235,6 @@ impl<'a, T: Scalar> Stage<'a, T> {
             }
             return;
         }
-        let at = seen_from(p, &shot.place(p.map), &self.surface);
         let coverage = coverage_on_terrain(&self.surface, p.map, at);
         strike(p, at, burst, coverage, &self.arsenal.explosive, self.rules);
     }
@@ -271,15 +275,59 @@ impl<'a, T: Scalar> Stage<'a, T> {
         }
         let Some(solids) = self.solids else { return near };
         let p = &body.player;
+        if R::LANES > 1 && self.all_beyond(solids, body) {
+            return near;
+        }
         self.mark_near(solids, (R::Mask::splat(true), self.range.tick), &p.place(), p.velocity, &mut near);
         for shot in body.arms.as_ref().iter().flat_map(|arms| &arms.slots) {
             let flying = shot.flying();
             if flying.any() {
-                let time = (self.range.tick + DISC_CLOCK.0) * DISC_CLOCK.1;
-                self.mark_near(solids, (flying, time), &shot.place(p.map), shot.velocity, &mut near);
+                self.mark_near(
+                    solids,
+                    (flying, self.disc_time()),
+                    &shot.place(p.map),
+                    shot.velocity,
+                    &mut near,
+                );
             }
         }
         near
+    }
+
+    /// Whether nobody of a block, nor a projectile of his, comes as far as the rectangle that all solids
+    /// stand in: one answer for the whole block, since mostly it is yes.
+    #[inline(always)]
+    fn all_beyond<S: Scene, R: Real<Scalar = T>>(&self, solids: &Solids, body: &Body<S, R>) -> bool {
+        let p = &body.player;
+        let mut away = home(&p.place());
+        let (mut low, mut high) = (p.position, p.position);
+        let mut reach = self.reach(p.velocity, self.range.tick);
+        for shot in body.arms.as_ref().iter().flat_map(|arms| &arms.slots) {
+            let flying = shot.flying();
+            if flying.any() {
+                let at = shot.place(p.map);
+                away = away.and(flying.not().or(home(&at)));
+                let place = V3::select(flying, at.position, p.position);
+                (low.x, low.y) = (low.x.min(place.x), low.y.min(place.y));
+                (high.x, high.y) = (high.x.max(place.x), high.y.max(place.y));
+                let far = self.reach(shot.velocity, self.disc_time());
+                reach = R::select(flying, reach.max(far), reach);
+            }
+        }
+        !away.and(solids.beyond(self.range.centre, (low, high), reach)).not().any()
+    }
+
+    /// How far along each axis something at a velocity comes within so many seconds, m.
+    #[inline(always)]
+    fn reach<R: Real<Scalar = T>>(&self, velocity: V3<R>, time: f64) -> R {
+        // The sum of the components is no less than the speed.
+        let speed = velocity.x.abs() + velocity.y.abs() + velocity.z.abs();
+        (speed + R::lit(self.range.gain)) * R::lit(time) + R::lit(self.range.size)
+    }
+
+    /// Seconds that a disc may fly in a tick.
+    fn disc_time(&self) -> f64 {
+        (self.range.tick + DISC_CLOCK.0) * DISC_CLOCK.1
     }
 
     /// Adds those of `chosen` to `near` who may meet a solid within so many seconds.
@@ -294,13 +342,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
     ) {
         let mut candidates = chosen;
         if R::LANES > 1 {
-            let range = &self.range;
-            let speed = velocity.x.abs() + velocity.y.abs() + velocity.z.abs();
-            let reach = (speed + R::lit(range.gain)) * R::lit(time) + R::lit(range.size);
-            let zero = R::Int::splat(0);
-            let home = at.tile_x.eq(zero).and(at.tile_y.eq(zero));
-            let maybe = solids.may_be_near::<R>(range.centre, at.position, reach);
-            candidates = chosen.and(home.not().or(maybe));
+            let maybe = solids.may_be_near::<R>(self.range.centre, at.position, self.reach(velocity, time));
+            candidates = chosen.and(home(at).not().or(maybe));
         }
         let mut bits = candidates.bits();
         while bits != 0 {
@@ -323,4 +366,11 @@ impl<'a, T: Scalar> Stage<'a, T> {
         let y = at.position.y.to_f64() + range.centre.y + f64::from(at.tile_y) * range.period.y;
         solids.near(x, y, at.position.z.to_f64(), reach)
     }
+}
+
+/// Whose local coordinates are those of the first tile, where solids stand.
+#[inline(always)]
+fn home<R: Real>(at: &Place<R>) -> R::Mask {
+    let zero = R::Int::splat(0);
+    at.tile_x.eq(zero).and(at.tile_y.eq(zero))
 }

@@ -4,6 +4,7 @@ mod landing;
 mod rows;
 mod ski;
 
+pub use rows::Columns;
 pub use ski::{CLIP, LayoutField, SkiObservation};
 
 use crate::real::Real;

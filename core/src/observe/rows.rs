@@ -3,6 +3,17 @@
 use super::CLIP;
 use crate::real::Real;
 
+/// Room for columns: one for many rows, since to clear it takes longer than to fill it.
+#[derive(Clone, Copy)]
+pub struct Columns<R: Real>([R::Each<R>; 2]);
+
+impl<R: Real> Default for Columns<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self([R::every(R::zero()); 2])
+    }
+}
+
 /// Rows of some players, filled column by column.
 pub(super) struct Rows<'a, R: Real> {
     numbers: &'a mut [f32],
@@ -12,17 +23,21 @@ pub(super) struct Rows<'a, R: Real> {
     at: usize,
     /// So many columns are pending.
     count: usize,
-    pending: R::Each<R>,
-    /// The columns written last.
-    written: R::Each<R>,
+    /// The pending columns, and those that were written last.
+    columns: &'a mut [R::Each<R>; 2],
+    pending: usize,
 }
 
 impl<'a, R: Real> Rows<'a, R> {
     /// The rows of the first `players` lanes, `stride` numbers each.
     #[inline(always)]
-    pub(super) fn new(numbers: &'a mut [f32], stride: usize, players: usize) -> Self {
-        let none = R::every(R::zero());
-        Self { numbers, players, stride, at: 0, count: 0, pending: none, written: none }
+    pub(super) fn new(
+        numbers: &'a mut [f32],
+        stride: usize,
+        players: usize,
+        Columns(columns): &'a mut Columns<R>,
+    ) -> Self {
+        Self { numbers, players, stride, at: 0, count: 0, columns, pending: 0 }
     }
 
     /// The next column, scaled and clipped; a NaN stays one.
@@ -31,13 +46,13 @@ impl<'a, R: Real> Rows<'a, R> {
         let clip = R::lit(f64::from(CLIP));
         let scaled = x * scale;
         let high = R::select(clip.lt(scaled), clip, scaled);
-        self.pending.as_mut()[self.count] = R::select(high.lt(-clip), -clip, high);
+        self.columns[self.pending].as_mut()[self.count] = R::select(high.lt(-clip), -clip, high);
         self.count += 1;
         if self.count == R::LANES {
-            R::write_rows(&self.pending, self.count, self.numbers, self.stride, self.at, self.players);
-            self.written = self.pending;
+            self.write(self.count, self.at);
             self.at += R::LANES;
             self.count = 0;
+            self.pending = 1 - self.pending;
         }
     }
 
@@ -53,17 +68,25 @@ impl<'a, R: Real> Rows<'a, R> {
             return;
         }
         if self.at == 0 {
-            R::write_rows(&self.pending, self.count, self.numbers, self.stride, 0, self.players);
+            self.write(self.count, 0);
             return;
         }
         // Some of the columns before them once more: a whole register is stored much faster than a part.
+        let shift = R::LANES - self.count;
         for k in (0..self.count).rev() {
-            self.pending.as_mut()[R::LANES - self.count + k] = self.pending.as_ref()[k];
+            let column = self.columns[self.pending].as_ref()[k];
+            self.columns[self.pending].as_mut()[shift + k] = column;
         }
-        for k in 0..R::LANES - self.count {
-            self.pending.as_mut()[k] = self.written.as_ref()[self.count + k];
+        for k in 0..shift {
+            let column = self.columns[1 - self.pending].as_ref()[self.count + k];
+            self.columns[self.pending].as_mut()[k] = column;
         }
-        let first = end - R::LANES;
-        R::write_rows(&self.pending, R::LANES, self.numbers, self.stride, first, self.players);
+        self.write(R::LANES, end - R::LANES);
+    }
+
+    #[inline(always)]
+    fn write(&mut self, count: usize, at: usize) {
+        let columns = &self.columns[self.pending];
+        R::write_rows(columns, count, self.numbers, self.stride, at, self.players);
     }
 }

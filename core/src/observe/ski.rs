@@ -1,7 +1,7 @@
 //! The observation of the ski task.
 
 use super::landing::{HORIZON, landing};
-use super::rows::Rows;
+use super::rows::{Columns, Rows};
 use super::seen_ground;
 use crate::armor::{GRAVITY, JUMP_GRACE_MS};
 use crate::error::{InputError, refuse};
@@ -149,6 +149,7 @@ impl SkiObservation {
         lowest: R,
         rows: &mut [f32],
         players: usize,
+        columns: &mut Columns<R>,
     ) {
         let (zero, one) = (R::zero(), R::lit(1.0));
         let (sin, cos) = p.yaw.sin_cos();
@@ -163,7 +164,7 @@ impl SkiObservation {
         let height = (p.position.z - below).max(zero);
         let normal = ground.normal();
 
-        let mut row = Rows::<R>::new(rows, rows.len() / players, players);
+        let mut row = Rows::new(rows, rows.len() / players, players, columns);
         let by_speed = R::lit(1.0 / SPEED);
         let (forward, right) = turned(v.x, v.y, sin, cos);
         row.push(forward, by_speed);

@@ -121,6 +121,13 @@ impl Solids {
         self.near.may_be_close(centre, place, reach)
     }
 
+    /// Who of some lanes stays, with all that lies between two corners and a reach beyond them, m from
+    /// `centre` and within some kilometres of it, outside the rectangle that all solids stand in.
+    #[inline(always)]
+    pub(crate) fn beyond<R: Real>(&self, centre: DVec2, (low, high): (V3<R>, V3<R>), reach: R) -> R::Mask {
+        self.near.beyond(centre, (low, high), reach)
+    }
+
     #[cold]
     fn near_bounds(&self, x: f64, y: f64, z: f64, reach: f64) -> bool {
         let point = DVec3::new(x, y, z);

@@ -31,6 +31,8 @@ pub(super) struct Near {
     cols: usize,
     rows: usize,
     cells: Vec<Range>,
+    /// South-west and north-east corner of all that stands.
+    bounds: (DVec2, DVec2),
 }
 
 impl Near {
@@ -41,8 +43,10 @@ impl Near {
         let low = triangles.iter().fold(DVec3::MAX, |m, t| m.min(t.low())).xy() - Self::MARGIN - SLACK;
         let high = triangles.iter().fold(DVec3::MIN, |m, t| m.max(t.high())).xy() + Self::MARGIN + SLACK;
         if triangles.is_empty() {
-            return Self { low: DVec2::ZERO, inverse: 1.0, cols: 0, rows: 0, cells: Vec::new() };
+            let bounds = (DVec2::MAX, DVec2::MIN);
+            return Self { low: DVec2::ZERO, inverse: 1.0, cols: 0, rows: 0, cells: Vec::new(), bounds };
         }
+        let bounds = (low + Self::MARGIN, high - Self::MARGIN);
         let size = CELL.max((high - low).max_element() / (MOST - 1) as f64);
         let [cols, rows] = (high - low).to_array().map(|side| (side / size) as usize + 1);
         let drawing = Drawing::new(triangles, low, size, cols, rows);
@@ -50,11 +54,23 @@ impl Near {
         let mut cells = dilated(&drawing.cells(), cols, rows, spread);
         // Lanes read a cell together with the next one.
         cells.push(NOTHING);
-        Self { low, inverse: 1.0 / size, cols, rows, cells }
+        Self { low, inverse: 1.0 / size, cols, rows, cells, bounds }
     }
 
     pub(super) fn bytes(&self) -> usize {
         self.cells.len() * size_of::<Range>()
+    }
+
+    /// Who is farther from everything than a reach, with all that lies between two corners in m from
+    /// `centre`. For lanes.
+    #[inline(always)]
+    pub(super) fn beyond<R: Real>(&self, centre: DVec2, (low, high): (V3<R>, V3<R>), reach: R) -> R::Mask {
+        // A part of the reach too: f32 rounds a large one by more than the slack.
+        let reach = reach * R::lit(1.0001) + R::lit(ROUNDED);
+        let (from, to) = (self.bounds.0 - centre, self.bounds.1 - centre);
+        let east_or_north = R::lit(to.x).lt(low.x - reach).or(R::lit(to.y).lt(low.y - reach));
+        let west_or_south = (high.x + reach).lt(R::lit(from.x)).or((high.y + reach).lt(R::lit(from.y)));
+        east_or_north.or(west_or_south)
     }
 
     /// Who may have anything within reach along each axis, of players at a place in m from `centre`: all

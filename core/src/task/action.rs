@@ -84,18 +84,51 @@ impl Actions<'_> {
     }
 }
 
-fn find_bad<I: Copy + Into<i64>>(actions: &[I]) -> Option<(usize, String)> {
-    /// A stretch of rows long enough to be checked by whole registers.
-    const STRETCH: usize = 16 * ACTION_SIZE;
-    let bins: [i64; STRETCH] = core::array::from_fn(|k| ACTION_BINS[k % ACTION_SIZE]);
-    let fits = |&(&action, &bins): &(&I, &i64)| (0..bins).contains(&action.into());
-    for (k, stretch) in actions.chunks(STRETCH).enumerate() {
-        // No early exit within a stretch, so that the compiler can look at many at a time.
-        let bad = stretch.iter().zip(&bins).map(|pair| u32::from(!fits(&pair))).sum::<u32>();
-        if bad > 0 {
-            let at = stretch.iter().zip(&bins).position(|pair| !fits(&pair))?;
-            let what = format!("expected 0 to {}, got {}", bins[at] - 1, stretch[at].into());
-            return Some((k * STRETCH + at, what));
+/// An index of a discrete action, as wide as it comes.
+trait Choice: Copy + Into<i64> {
+    /// Whether it lies outside `0..bins`, in the sign of a number.
+    fn beyond(self, bins: i64) -> Self;
+    /// Both signs in one.
+    fn join(self, other: Self) -> Self;
+}
+
+macro_rules! choice {
+    ($($t:ty),+) => {
+        $(impl Choice for $t {
+            #[inline(always)]
+            fn beyond(self, bins: i64) -> Self {
+                self | (bins as $t - 1).wrapping_sub(self)
+            }
+            #[inline(always)]
+            fn join(self, other: Self) -> Self {
+                self | other
+            }
+        })+
+    };
+}
+choice!(i8, i32, i64);
+
+/// Rows that are looked at before it is asked whether all were good.
+const STRETCH: usize = 64;
+
+fn find_bad<I: Choice + Default>(actions: &[I]) -> Option<(usize, String)> {
+    for (k, stretch) in actions.chunks(STRETCH * ACTION_SIZE).enumerate() {
+        // Only signs are gathered, with no branch, so that the compiler looks at many at a time.
+        let mut beyond = [I::default(); ACTION_SIZE];
+        for row in stretch.chunks_exact(ACTION_SIZE) {
+            for (column, &choice) in row.iter().enumerate() {
+                beyond[column] = beyond[column].join(choice.beyond(ACTION_BINS[column]));
+            }
+        }
+        if beyond.iter().all(|&sign| sign.into() >= 0) {
+            continue;
+        }
+        for (at, &choice) in stretch.iter().enumerate() {
+            let (choice, bins) = (choice.into(), ACTION_BINS[at % ACTION_SIZE]);
+            if !(0..bins).contains(&choice) {
+                let at = k * STRETCH * ACTION_SIZE + at;
+                return Some((at, format!("expected 0 to {}, got {choice}", bins - 1)));
+            }
         }
     }
     None

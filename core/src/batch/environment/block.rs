@@ -6,6 +6,7 @@ use super::decision::Decision;
 use super::episode::{Begun, Episodes};
 use super::step::Piece;
 use super::*;
+use crate::observe::Columns;
 use crate::real::Work;
 use crate::terrain::{Maps, Surface};
 
@@ -70,6 +71,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
     fn run(self) {
         let Self { batch, surface, mut piece, actions } = self;
         let (row, count) = (batch.row, batch.setup.count);
+        let mut columns = Columns::default();
         let turn_rate = <R::Scalar as Scalar>::from_f64(batch.setup.task.turn_rate);
         for group in 0..piece.blocks.len().div_ceil(together::<R>()) {
             let start = group * together::<R>();
@@ -98,7 +100,7 @@ impl<S: Scene, M: Movement, R: Real> Work for Step<'_, S, M, R> {
             piece.report.charge(2);
             for (k, block) in blocks.iter().enumerate() {
                 let rows = &mut piece.output.observations[at(k) * row..(at(k) + players(k)) * row];
-                batch.observe_block(block, &surface, rows, players(k));
+                batch.observe_block(block, &surface, rows, players(k), &mut columns);
             }
             piece.report.charge(3);
             for (k, block) in blocks.iter().enumerate() {
@@ -136,8 +138,9 @@ impl<S: Scene, M: Movement, R: Real> Work for Observe<'_, S, M, R> {
     #[inline(always)]
     fn run(self) {
         let row = self.batch.row;
+        let mut columns = Columns::default();
         for (block, rows) in self.blocks.iter().zip(self.rows.chunks_mut(row * R::LANES)) {
-            self.batch.observe_block(block, &self.surface, rows, rows.len() / row);
+            self.batch.observe_block(block, &self.surface, rows, rows.len() / row, &mut columns);
         }
     }
 }

@@ -43,9 +43,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             report.observations.extend_from_slice(row);
             if self.setup.autoreset == Autoreset::SameStep {
                 self.go_on(block, lane);
-                let (player, run) = (block.player.lane(lane), block.run.lane(lane));
-                let surface = self.setup.maps.surface();
-                self.observe::<R::Scalar>(&player, &run, &surface, block.lowest.lane(lane), row, 1);
+                self.observe_lane(block, lane, row);
             }
         }
     }

@@ -181,9 +181,8 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         self.check_reset(request, observations.len())?;
         let crew = self.crew()?;
         let _floats = DefaultFloats::enter();
-        let asked = |i: usize| request.mask.is_empty() || request.mask[i];
         let mut begun: Vec<(usize, Begun<S, R::Scalar>)> = Vec::new();
-        for i in (0..self.setup.count).filter(|&i| asked(i)) {
+        for i in asked(&request.mask, self.setup.count) {
             let old = self.episode(i);
             let (seed, number) = match (request.seeds.get(i), old.phase) {
                 (Some(&seed), _) => (seed, 0),
@@ -205,12 +204,9 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         }
         self.note_phases();
         if request.others_observed {
-            let surface = self.setup.maps.surface();
             for i in chosen {
-                let (block, lane) = (&self.blocks[i / R::LANES], i % R::LANES);
-                let (player, run) = (block.player.lane(lane), block.run.lane(lane));
                 let row = &mut observations[i * self.row..(i + 1) * self.row];
-                self.observe::<R::Scalar>(&player, &run, &surface, block.lowest.lane(lane), row, 1);
+                self.observe_lane(&self.blocks[i / R::LANES], i % R::LANES, row);
             }
         } else {
             self.observe_all(crew, observations);
@@ -291,4 +287,17 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
     fn digest(&self) -> String {
         format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes()))
     }
+}
+
+/// The environments that a mask names; all of `count` where it is empty.
+fn asked(mask: &[bool], count: usize) -> impl Iterator<Item = usize> {
+    /// Few are named among many: stretches without one are passed over as a whole.
+    const STRETCH: usize = 64;
+    let all = if mask.is_empty() { 0..count } else { 0..0 };
+    let named = mask
+        .chunks(STRETCH)
+        .enumerate()
+        .filter(|(_, stretch)| stretch.iter().fold(false, |any, &one| any | one))
+        .flat_map(|(k, stretch)| (0..stretch.len()).filter(|&i| stretch[i]).map(move |i| k * STRETCH + i));
+    all.chain(named)
 }

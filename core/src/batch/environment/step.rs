@@ -2,6 +2,7 @@
 
 use super::block::{Observe, Step};
 use super::*;
+use crate::observe::Columns;
 use crate::terrain::Surface;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -156,22 +157,18 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         surface: &Surface<'_, R::Scalar>,
         rows: &mut [f32],
         players: usize,
+        columns: &mut Columns<R>,
     ) {
-        self.observe::<R>(&block.player, &block.run, surface, block.lowest, rows, players);
+        let Block { player, run, lowest, .. } = block;
+        self.setup.observation.write(player, run, surface, &self.rules, *lowest, rows, players, columns);
     }
 
-    /// The observations of the players of some lanes.
-    #[inline(always)]
-    pub(super) fn observe<L: Real<Scalar = R::Scalar>>(
-        &self,
-        player: &Player<S, L>,
-        run: &Run<L>,
-        surface: &Surface<'_, R::Scalar>,
-        lowest: L,
-        rows: &mut [f32],
-        players: usize,
-    ) {
-        self.setup.observation.write(player, run, surface, &self.rules, lowest, rows, players);
+    /// The observation of one player.
+    pub(super) fn observe_lane(&self, block: &Block<S, R>, lane: usize, row: &mut [f32]) {
+        let (player, run, lowest) = (block.player.lane(lane), block.run.lane(lane), block.lowest.lane(lane));
+        let surface = self.setup.maps.surface();
+        let columns = &mut Columns::<R::Scalar>::default();
+        self.setup.observation.write(&player, &run, &surface, &self.rules, lowest, row, 1, columns);
     }
 
     pub(super) fn observe_all(&self, crew: Crew, observations: &mut [f32]) {

@@ -233,7 +233,12 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
         self.broken = true;
         let pieces = self.blocks.chunks_mut(piece / R::LANES).zip(inputs.chunks(piece));
-        crew.share(pieces, |(blocks, raw)| play::<S, M, R>(&stage, per_world, blocks, raw, ticks));
+        crew.share(pieces, |(blocks, raw)| {
+            // A copy on each thread's own stack: the caller writes beside his all the time, and whoever
+            // reads a line that another writes waits for it.
+            let stage = stage;
+            play::<S, M, R>(&stage, per_world, blocks, raw, ticks);
+        });
         self.broken = false;
         Ok(())
     }
