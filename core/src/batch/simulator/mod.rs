@@ -236,8 +236,8 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         crew.share(pieces, |(blocks, raw)| {
             // A copy on each thread's own stack: the caller writes beside his all the time, and whoever
             // reads a line that another writes waits for it.
-            let stage = stage;
-            play::<S, M, R>(&stage, per_world, blocks, raw, ticks);
+            let own = stage;
+            play::<S, M, R>(&own, per_world, blocks, raw, ticks);
         });
         self.broken = false;
         Ok(())
