@@ -76,9 +76,6 @@ pub trait Real:
     fn splat(x: Self::Scalar) -> Self;
     /// The same `T` for every lane.
     fn every<T: Copy + Send + Sync>(x: T) -> Self::Each<T>;
-    /// `f(lane)` for every lane. Not for hot paths: closures are not compiled for the lanes' instruction
-    /// set.
-    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> Self::Each<T>;
     /// The numbers of all lanes at once.
     fn pack(each: &Self::Each<Self::Scalar>) -> Self;
     /// All lanes' numbers.

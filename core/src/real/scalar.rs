@@ -48,10 +48,6 @@ macro_rules! scalar {
                 [x; 1]
             }
             #[inline(always)]
-            fn each<T: Copy + Send + Sync>(mut f: impl FnMut(usize) -> T) -> [T; 1] {
-                [f(0)]
-            }
-            #[inline(always)]
             fn pack(each: &[$t; 1]) -> Self {
                 each[0]
             }

@@ -139,10 +139,6 @@ impl Real for F32x8 {
         [x; 8]
     }
     #[inline(always)]
-    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 8] {
-        core::array::from_fn(f)
-    }
-    #[inline(always)]
     fn pack(each: &[f32; 8]) -> Self {
         Self(unsafe { _mm256_loadu_ps(each.as_ptr()) })
     }

@@ -145,10 +145,6 @@ impl Real for F32x16 {
         [x; 16]
     }
     #[inline(always)]
-    fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 16] {
-        core::array::from_fn(f)
-    }
-    #[inline(always)]
     fn pack(each: &[f32; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(each.as_ptr()) })
     }

@@ -186,8 +186,12 @@ fn operands<R: Real<Scalar = f32>>(round: u64) -> Operands<R> {
         mask.set_lane(lane, integer(at(lane, 3)) & 1 == 1);
         other.set_lane(lane, integer(at(lane, 4)) % 7 == 0);
     }
-    let a = R::pack(&R::each(|lane| number(at(lane, 5))));
-    let mut b = R::pack(&R::each(|lane| number(at(lane, 6))));
+    let (mut first, mut second) = (R::every(0.0), R::every(0.0));
+    for lane in 0..R::LANES {
+        first.as_mut()[lane] = number(at(lane, 5));
+        second.as_mut()[lane] = number(at(lane, 6));
+    }
+    let (a, mut b) = (R::pack(&first), R::pack(&second));
     // Equal numbers too: half of the comparisons are about them.
     b.set_lane(round as usize % R::LANES, a.lane(round as usize % R::LANES));
     Operands { a, b, i, j, mask, other, index }
@@ -252,6 +256,59 @@ fn copies_a_lane<R: Real<Scalar = f32>>() {
             assert_eq!(mask.bits() >> at & 1 == 1, expected.mask);
         }
         assert_eq!(u64::from(mask.bits()) >> R::LANES, 0);
+    }
+}
+
+/// Columns become rows, number by number, and nothing else is written; numbers go out as they came in.
+fn writes_rows<R: Real<Scalar = f32>>() {
+    let mut columns = R::every(R::zero());
+    for k in 0..R::LANES {
+        let column = operands::<R>(k as u64);
+        columns.as_mut()[k] = column.a;
+        let integers = R::unpack_int(column.i);
+        for lane in 0..R::LANES {
+            assert_eq!(column.a.unpack().as_ref()[lane].to_bits(), column.a.lane(lane).to_bits());
+            assert_eq!(integers.as_ref()[lane], column.i.lane(lane));
+            assert_eq!(R::pack_int(&integers).lane(lane), column.i.lane(lane));
+        }
+    }
+    let untouched = 12345.0f32.to_bits();
+    for count in 0..=R::LANES {
+        for players in 0..=R::LANES {
+            let (stride, at) = (R::LANES + 3, 2);
+            let mut rows = vec![f32::from_bits(untouched); R::LANES * stride];
+            R::write_rows(&columns, count, &mut rows, stride, at, players);
+            for (place, number) in rows.iter().enumerate() {
+                let (lane, k) = (place / stride, place % stride);
+                let written = lane < players && (at..at + count).contains(&k);
+                let expected =
+                    if written { columns.as_ref()[k - at].lane(lane).to_bits() } else { untouched };
+                assert_eq!(number.to_bits(), expected, "{count} columns of {players} players, place {place}");
+            }
+        }
+    }
+    // One number short, a column beyond the row, and more of either than there are lanes.
+    let fails = |count: usize, len: usize, at: usize, players: usize| {
+        let mut rows = vec![0.0; len];
+        let stride = R::LANES;
+        let write = || R::write_rows(&columns, count, &mut rows, stride, at, players);
+        catch_unwind(AssertUnwindSafe(write)).is_err()
+    };
+    let whole = R::LANES * R::LANES;
+    assert!(!fails(R::LANES, whole, 0, R::LANES));
+    assert!(fails(R::LANES, whole - 1, 0, R::LANES) && fails(R::LANES, whole, 1, R::LANES));
+    assert!(fails(R::LANES + 1, 4 * whole, 0, 1) && fails(1, 4 * whole, 0, R::LANES + 1));
+}
+
+#[test]
+fn columns_become_rows() {
+    for width in Width::available() {
+        match width {
+            Width::One => writes_rows::<f32>(),
+            Width::Eight => writes_rows::<F32x8>(),
+            Width::Sixteen => writes_rows::<F32x16>(),
+            Width::ThirtyTwo => writes_rows::<Two<F32x16>>(),
+        }
     }
 }
 

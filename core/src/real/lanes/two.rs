@@ -147,10 +147,6 @@ macro_rules! two {
                 [x; 2 * $count]
             }
             #[inline(always)]
-            fn each<T: Copy + Send + Sync>(f: impl FnMut(usize) -> T) -> [T; 2 * $count] {
-                core::array::from_fn(f)
-            }
-            #[inline(always)]
             fn pack(each: &[f32; 2 * $count]) -> Self {
                 let (first, second) = halves!(each, $count);
                 Self(<$real>::pack(first), <$real>::pack(second))
