@@ -5,7 +5,7 @@
 mod common;
 
 use common::crowd::keys;
-use common::{crew::Crew, rolling, setup};
+use common::{crew::Crew, rolling, setup, widths};
 use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::random::{Purpose, unit};
 use discjump_core::rules::{DiscFlight, Physics};
@@ -16,21 +16,6 @@ use std::sync::Arc;
 
 const TIERS: [&str; 3] = ["authentic", "swept", "fast"];
 const SCENES: [&str; 4] = ["ski", "sandbox", "disc_jump", "mission"];
-
-/// The widths beside 1 that this processor has.
-fn widths() -> Vec<usize> {
-    let mut widths = Vec::new();
-    #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx2") {
-            widths.push(8);
-        }
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512bw") {
-            widths.extend([16, 32]);
-        }
-    }
-    widths
-}
 
 /// Steep hills on a map whose sides are no powers of two.
 fn odd(edge: Edge) -> Heightfield {
@@ -82,7 +67,7 @@ fn agree(setup: &SimulatorSetup<'_>, ticks: u64) -> (usize, String) {
         crew.sim
     };
     let mut one = make(1);
-    let mut wide: Vec<Box<dyn Bodies>> = widths().into_iter().map(make).collect();
+    let mut wide: Vec<Box<dyn Bodies>> = widths().map(make).collect();
     let what = |sim: &dyn Bodies, tick: u64| {
         format!("{} {} {players} players, {} lanes, tick {tick}", setup.scene, setup.fidelity, sim.lanes())
     };

@@ -5,7 +5,12 @@
 //! alive. So nothing is copied, and nothing that a user stored ever changes.
 
 use numpy::ndarray::{Dimension, Ix1};
-use numpy::{Element, PyArray, PyArray1, PyArrayMethods, PyReadonlyArray2};
+use numpy::npyffi::flags::{
+    NPY_ARRAY_ALIGNED, NPY_ARRAY_C_CONTIGUOUS, NPY_ARRAY_OWNDATA, NPY_ARRAY_WRITEABLE,
+};
+use numpy::{
+    Element, PyArray, PyArray1, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyList};
@@ -27,16 +32,39 @@ impl<T: Element + Clone, D: Dimension> Buffers<T, D> {
 
     /// A buffer that nobody else holds. What it contains is unspecified (zeros when new).
     pub fn take<'py>(&mut self, py: Python<'py>) -> Lent<'py, T, D> {
-        let free = self.lent.iter().position(|array| reference_count(array) == 1);
-        let array = match free {
-            Some(at) => self.lent.remove(at),
-            None => PyArray::<T, D>::zeros(py, self.shape.clone(), false).unbind(),
-        };
+        let array =
+            self.free(py).unwrap_or_else(|| PyArray::<T, D>::zeros(py, self.shape.clone(), false).unbind());
         if self.lent.len() == KEPT {
             self.lent.remove(0);
         }
         self.lent.push(array.clone_ref(py));
         Lent(array.into_bound(py))
+    }
+
+    /// A buffer that came back as it went out. Whoever held one may have given it another dtype or shape, or
+    /// made it read-only: such a one is left to Python.
+    fn free(&mut self, py: Python<'_>) -> Option<Py<PyArray<T, D>>> {
+        let mut at = 0;
+        while at < self.lent.len() {
+            if reference_count(&self.lent[at]) > 1 {
+                at += 1;
+                continue;
+            }
+            let array = self.lent.remove(at);
+            if self.as_made(array.bind(py)) {
+                return Some(array);
+            }
+        }
+        None
+    }
+
+    fn as_made(&self, array: &Bound<'_, PyArray<T, D>>) -> bool {
+        const MADE: i32 =
+            NPY_ARRAY_C_CONTIGUOUS | NPY_ARRAY_OWNDATA | NPY_ARRAY_ALIGNED | NPY_ARRAY_WRITEABLE;
+        // SAFETY: the pointer is alive while `array` is.
+        let flags = unsafe { (*array.as_array_ptr()).fields.flags };
+        let dtype = array.dtype().is_equiv_to(&numpy::dtype::<T>(array.py()));
+        (flags & MADE) == MADE && array.shape() == self.shape.slice() && dtype
     }
 
     /// The same, every entry `value`.
@@ -53,8 +81,8 @@ pub struct Lent<'py, T, D>(Bound<'py, PyArray<T, D>>);
 impl<'py, T: Element, D: Dimension> Lent<'py, T, D> {
     /// Its entries, row by row.
     pub fn contents(&mut self) -> &mut [T] {
-        // SAFETY: `take` found it contiguous and without another holder but the list it is kept in, and it
-        // is not handed over yet. rust-numpy's own check costs more than a short step.
+        // SAFETY: `take` found it as it was made and without another holder but the list it is kept in, and
+        // it is not handed over yet. rust-numpy's own check costs more than a short step.
         unsafe { self.0.as_slice_mut().expect("buffers are contiguous") }
     }
 

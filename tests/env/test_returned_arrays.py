@@ -15,7 +15,7 @@ from gymnasium.vector import AutoresetMode
 from discjump.envs.ski import SkiEnv
 from discjump.envs.vector import SkiVectorEnv
 
-from .play import SHORT, random_actions
+from .play import SHORT, random_actions, same_bits
 
 
 def leaves(value):
@@ -144,3 +144,32 @@ def test_buffers_are_used_again_when_nobody_holds_them(front):
     assert places
     assert all(len(addresses) <= 2 for addresses in places.values()), places
     assert ("return" in places) == (front == "vector")
+
+
+def _as_integers(array):
+    array.dtype = np.dtype(f"i{array.dtype.itemsize // 2 or 1}")
+
+
+def _in_two_rows(array):
+    array.shape = (2, -1)
+
+
+def _read_only(array):
+    array.setflags(write=False)
+
+
+@pytest.mark.parametrize("change", [_as_integers, _in_two_rows, _read_only])
+def test_a_buffer_that_was_changed_in_place_is_not_used_again(change):
+    """A returned array whose dtype a user had set was written to beyond its end when it was used again; one of
+    another shape made every later step fail.
+    """
+    envs, beside = (SkiVectorEnv(64, **SHORT) for _ in range(2))
+    envs.reset(seed=1)
+    beside.reset(seed=1)
+    for actions in random_actions(3, 60, 64):
+        result, expected = envs.step(actions), beside.step(actions)
+        same_bits(result, expected)
+        for array in leaves(result):
+            if array.flags.writeable and (change is not _as_integers or array.dtype.itemsize > 1):
+                change(array)
+        del array, result

@@ -185,3 +185,20 @@ pub const JET: RawInput = RawInput { jump: 0, jet: 1, ..JUMP };
 pub const IDLE: RawInput = RawInput { jump: 0, ..JUMP };
 pub const FORWARD: RawInput = RawInput { forward: 1, ..IDLE };
 pub const SKI: RawInput = RawInput { forward: 1, ..JUMP };
+
+/// The widths of lanes beside 1 that this processor must have, by its own word.
+#[cfg(target_arch = "x86_64")]
+pub fn widths() -> impl Iterator<Item = usize> {
+    let eight = is_x86_feature_detected!("avx2");
+    let sixteen = is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512vl")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512bw");
+    [(8, eight), (16, sixteen), (32, sixteen)].into_iter().filter(|width| width.1).map(|width| width.0)
+}
+
+/// None but on x86-64.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn widths() -> impl Iterator<Item = usize> {
+    core::iter::empty()
+}

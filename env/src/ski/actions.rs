@@ -26,7 +26,12 @@ pub(super) fn readable<'py>(
     kind: ActionKind,
 ) -> PyResult<Bound<'py, PyAny>> {
     let numpy = value.py().import("numpy")?;
-    let array = numpy.call_method1("asarray", (value,))?.cast_into::<PyUntypedArray>()?;
+    let ragged = |_| {
+        PyValueError::new_err(format!(
+            "actions: expected numbers in rows of one length, shape ({n}, {ACTION_SIZE}), got a ragged sequence"
+        ))
+    };
+    let array = numpy.call_method1("asarray", (value,)).map_err(ragged)?.cast_into::<PyUntypedArray>()?;
     let known = has_dtype::<i64>(&array)
         || has_dtype::<i32>(&array)
         || has_dtype::<i8>(&array)
@@ -74,6 +79,7 @@ fn numbers<'a, T: Element, D: Dimension + 'a>(
     let array = value.cast::<PyArray<T, D>>().ok()?;
     // Fortran order has a slice too, but its rows are scrambled.
     let plain = array.shape() == shape && array.is_c_contiguous() && array.is_aligned();
-    // SAFETY: nothing here writes to what a user passes in.
+    // SAFETY: nothing here writes to what a user passes in. Another thread of his may, during a long step:
+    // then it is open which keys are read, and all of them are bounded where they are used.
     if plain { unsafe { array.as_slice().ok() } } else { None }
 }

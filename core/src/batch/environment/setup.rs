@@ -87,6 +87,7 @@ impl SkiEnvironments {
             refuse!("num_envs: expected 1 to {MAX_PLAYERS}, got {}", self.count);
         }
         find_armor(&self.armor)?;
+        lane_width(self.lanes, self.count)?;
         check_tick(self.tick_ms)?;
         let task = &self.task;
         let (near, far) = task.goal_distance;

@@ -12,10 +12,12 @@ pub(crate) struct F32x8(__m256);
 
 /// 8 integers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct I32x8(__m256i);
 
 /// All bits set, or none, in each of 8 lanes.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct Mask8(__m256i);
 
 #[inline(never)]
@@ -53,9 +55,9 @@ impl Mask for Mask8 {
     }
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, x: bool) {
-        let mut lanes = I32x8(self.0);
+        // SAFETY: a mask is a register of integers.
+        let lanes = unsafe { &mut *core::ptr::from_mut(self).cast::<I32x8>() };
         lanes.set_lane(lane, -i32::from(x));
-        self.0 = lanes.0;
     }
     #[inline(always)]
     fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {

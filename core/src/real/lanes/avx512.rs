@@ -26,6 +26,7 @@ pub(crate) struct F32x16(__m512);
 
 /// 16 integers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub(crate) struct I32x16(__m512i);
 
 /// A bit for each of 16 lanes.

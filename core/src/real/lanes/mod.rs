@@ -81,8 +81,9 @@ macro_rules! operators {
 }
 use operators;
 
-/// One lane of a register, read and written through an array on the stack. The register itself stays
-/// one: an index into it would force it into memory.
+/// One lane of a register: read through an array on the stack, so that the register itself stays one; written
+/// in memory, where whatever is changed lane by lane lies anyway. To load it whole, change a lane and store
+/// it again would have every such change wait for the one before.
 macro_rules! lane_access {
     ($scalar:ty, $count:expr, $register:ty) => {
         #[inline(always)]
@@ -93,11 +94,9 @@ macro_rules! lane_access {
         }
         #[inline(always)]
         fn set_lane(&mut self, lane: usize, x: $scalar) {
-            // SAFETY: as above.
-            let mut lanes = unsafe { core::mem::transmute::<$register, [$scalar; $count]>(self.0) };
+            // SAFETY: as above, and this type is its register.
+            let lanes = unsafe { &mut *core::ptr::from_mut(self).cast::<[$scalar; $count]>() };
             lanes[lane] = x;
-            // SAFETY: as above.
-            self.0 = unsafe { core::mem::transmute::<[$scalar; $count], $register>(lanes) };
         }
         #[inline(always)]
         fn copy_lane(&mut self, lane: usize, from: &Self, there: usize) {
