@@ -160,8 +160,8 @@ def _read_only(array):
 
 @pytest.mark.parametrize("change", [_as_integers, _in_two_rows, _read_only])
 def test_a_buffer_that_was_changed_in_place_is_not_used_again(change):
-    """A returned array whose dtype a user had set was written to beyond its end when it was used again; one of
-    another shape made every later step fail.
+    """A returned array whose dtype a user had set was written to beyond its end when it was used again; one
+    of another shape made every later step fail.
     """
     envs, beside = (SkiVectorEnv(64, **SHORT) for _ in range(2))
     envs.reset(seed=1)
