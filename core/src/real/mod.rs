@@ -107,11 +107,6 @@ pub trait Real:
     fn truncate(self) -> Self::Int;
     /// The nearest number to an integer.
     fn from_int(i: Self::Int) -> Self;
-    /// `table[index]`, lane by lane.
-    ///
-    /// # Panics
-    /// If an index is negative or not below the table's length.
-    fn gather(table: &[Self::Scalar], index: Self::Int) -> Self;
     /// The numbers of `table[index]` and of `table[index + 1]`, in this order, lane by lane: one load each.
     ///
     /// # Panics

@@ -100,10 +100,6 @@ macro_rules! scalar {
                 i as $t
             }
             #[inline(always)]
-            fn gather(table: &[$t], index: i32) -> Self {
-                table[index as usize]
-            }
-            #[inline(always)]
             fn gather_square(table: &[[$t; 2]], index: i32) -> [Self; 4] {
                 let [[a, b], [c, d]] = table[index as usize..][..2] else { unreachable!() };
                 [a, b, c, d]

@@ -6,4 +6,5 @@ mod run;
 
 pub use action::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions};
 pub use courses::{Course, CourseRequest, draw_course};
+pub(crate) use run::seconds;
 pub use run::{Outcome, Reward, Run, SkiTask, Verdict};

@@ -211,6 +211,12 @@ impl<T: Scalar> Run<T> {
     /// Seconds played.
     #[must_use]
     pub fn seconds(&self, tick_ms: i32) -> f64 {
-        f64::from(self.ticks) * f64::from(tick_ms) / 1000.0
+        seconds(self.ticks, tick_ms)
     }
+}
+
+/// So many ticks in seconds.
+#[inline(always)]
+pub(crate) fn seconds(ticks: i32, tick_ms: i32) -> f64 {
+    f64::from(ticks) * f64::from(tick_ms) / 1000.0
 }

@@ -4,6 +4,7 @@ use super::super::alone::{MOST_BLOCKS, catch_up, passes};
 use super::block::Block;
 use super::episode::Phase;
 use super::*;
+use crate::task::seconds;
 use crate::terrain::Surface;
 use crate::tick::{go, look, push};
 
@@ -101,7 +102,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         surface: &Surface<'_, R::Scalar>,
     ) -> R::Each<f64> {
         let weights = &self.setup.task.reward;
-        let tick_ms = f64::from(self.rules.tick_ms);
         let (zero, one) = (R::Int::splat(0), R::Int::splat(1));
         // As arrays, so that the compiler can work on several lanes' f64 at a time.
         let distances = block.run.distance(&block.player, surface).unpack();
@@ -113,7 +113,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         for lane in 0..R::LANES {
             let distance = distances.as_ref()[lane].to_f64();
             let before = books.distance.as_ref()[lane];
-            let seconds = f64::from(ticks.as_ref()[lane]) * tick_ms / 1000.0;
+            let seconds = seconds(ticks.as_ref()[lane], self.rules.tick_ms);
             let bonus = if arrived.as_ref()[lane] != 0 { weights.arrival } else { 0.0 };
             let reward = weights.progress * (before - distance) + weights.time * seconds + bonus;
             let playing = played.as_ref()[lane] != 0;

@@ -4,6 +4,7 @@ use super::block::Block;
 use super::decision::Decision;
 use super::episode;
 use super::*;
+use crate::task::seconds;
 use crate::terrain::Surface;
 
 impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
@@ -102,11 +103,10 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let (x, y) = (p.position.x.unpack(), p.position.y.unpack());
         let (tile_x, tile_y, ticks) =
             (R::unpack_int(p.tile_x), R::unpack_int(p.tile_y), R::unpack_int(run.ticks));
-        let tick_ms = f64::from(self.rules.tick_ms);
         for lane in 0..players {
             status.distance[at + lane] = distances.as_ref()[lane].to_f64();
             status.speed[at + lane] = speeds.as_ref()[lane].to_f64();
-            status.time[at + lane] = f64::from(ticks.as_ref()[lane]) * tick_ms / 1000.0;
+            status.time[at + lane] = seconds(ticks.as_ref()[lane], self.rules.tick_ms);
             let local = DVec3::new(x.as_ref()[lane].to_f64(), y.as_ref()[lane].to_f64(), 0.0);
             let world = maps.to_world(local, IVec2::new(tile_x.as_ref()[lane], tile_y.as_ref()[lane]));
             let area = &self.setup.areas[block.episodes.map.as_ref()[lane] as usize];

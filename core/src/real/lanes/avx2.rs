@@ -211,18 +211,6 @@ impl Real for F32x8 {
         Self(unsafe { _mm256_cvtepi32_ps(i.0) })
     }
     #[inline(always)]
-    fn gather(table: &[f32], index: I32x8) -> Self {
-        let len = u32::try_from(table.len()).unwrap_or(u32::MAX).cast_signed();
-        unsafe {
-            // Unsigned, so that a negative index is a large one.
-            let larger = _mm256_max_epu32(index.0, _mm256_set1_epi32(len));
-            if Mask8(_mm256_cmpeq_epi32(larger, index.0)).any() {
-                out_of_range(table.len());
-            }
-            Self(_mm256_i32gather_ps::<4>(table.as_ptr(), index.0))
-        }
-    }
-    #[inline(always)]
     fn write_rows(
         columns: &[Self; 8],
         count: usize,

@@ -218,17 +218,6 @@ impl Real for F32x16 {
         Self(unsafe { _mm512_cvtepi32_ps(i.0) })
     }
     #[inline(always)]
-    fn gather(table: &[f32], index: I32x16) -> Self {
-        let len = u32::try_from(table.len()).unwrap_or(u32::MAX).cast_signed();
-        unsafe {
-            // Unsigned, so that a negative index is a large one.
-            if _mm512_cmpge_epu32_mask(index.0, _mm512_set1_epi32(len)) != 0 {
-                out_of_range(table.len());
-            }
-            Self(_mm512_i32gather_ps::<4>(index.0, table.as_ptr().cast()))
-        }
-    }
-    #[inline(always)]
     fn write_rows(
         columns: &[Self; 16],
         count: usize,

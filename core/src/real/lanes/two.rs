@@ -210,10 +210,6 @@ macro_rules! two {
                 Self(<$real>::from_int(i.0), <$real>::from_int(i.1))
             }
             #[inline(always)]
-            fn gather(table: &[f32], index: Two<$int>) -> Self {
-                Self(<$real>::gather(table, index.0), <$real>::gather(table, index.1))
-            }
-            #[inline(always)]
             fn write_rows(
                 columns: &[Self; 2 * $count],
                 count: usize,
