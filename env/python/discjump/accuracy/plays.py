@@ -1,14 +1,14 @@
 """What every tier is given alike: ground, starts, keys and explosions."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
 from discjump.accuracy.grounds import Floats
-from discjump.accuracy.scripts import Inputs
+from discjump.accuracy.scripts import TICK_MS, Inputs, resampled
 
 BROWSE = 64
 """Places looked at for each start that is wanted."""
@@ -33,12 +33,33 @@ class Play:
     inputs: Inputs
     #: Points of explosions (n, 3) by the tick before which they go off; NaN: none.
     blasts: dict[int, Floats] = field(default_factory=dict)
+    #: Length of a tick, ms.
+    tick_ms: int = TICK_MS
 
     def __post_init__(self) -> None:
         """Whatever float32 cannot hold would be an error of the start, not of the tier."""
         for name in ("position", "velocity", "yaw"):
             given = getattr(self, name)
             object.__setattr__(self, name, given.astype(np.float32).astype(np.float64))
+
+    def at(self, tick_ms: int) -> "Play":
+        """The same play in ticks of another length; explosions that fall within a tick wait for its end.
+
+        Raises:
+            ValueError: a length that `scripts.resampled` refuses, or two explosions of one player that would
+                fall together.
+        """
+        inputs = resampled(self.inputs, tick_ms)
+        blasts: dict[int, Floats] = {}
+        for tick, points in sorted(self.blasts.items()):
+            begins = -(-tick * TICK_MS // tick_ms)
+            others = blasts.get(begins, np.full_like(points, np.nan))
+            if (~np.isnan(others) & ~np.isnan(points)).any():
+                raise ValueError(
+                    f"tick_ms: expected explosions of a player in different ticks, got {tick_ms}"
+                )
+            blasts[begins] = np.where(np.isnan(points), others, points)
+        return replace(self, inputs=inputs, blasts=blasts, tick_ms=tick_ms)
 
 
 @dataclass(frozen=True)
