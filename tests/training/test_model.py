@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from stable_baselines3 import PPO
 
-from discjump_training import baselines, model, train
+from discjump_training import baselines, files, model, train
 from discjump_training.courses import VALIDATION
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
