@@ -15,7 +15,7 @@ STEPS = 4_096
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
     out = tmp_path_factory.mktemp("transfer")
-    told = []
+    told: list[str] = []
     tiny = [change for change in TINY if not change.startswith("ppo.steps")]
     rows = transfer.measure(out, HOMES, 2, STEPS, 8, overrides=tiny, threads=1, done=told.append)
     return out, tiny, rows, told
