@@ -100,7 +100,8 @@ class Errors:
             Panel(
                 f"Path of a skier after {seconds:.0f} s: {said}",
                 "physics alone",
-                "distance from the truth, m",
+                "distance from the truth",
+                "m",
                 points({Config.of(row): row["at"][-1]["position"][name] for row in rows}, speeds.physics),
                 FLOOR,
             )

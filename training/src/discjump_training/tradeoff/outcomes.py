@@ -100,8 +100,9 @@ class Outcomes:
         return [
             Panel(
                 f"Scripted {SKIERS[0]}: time to the beacon",
-                "agents, a decision each 128 ms",
-                "mean difference from the truth, s\n(the interval's end further from 0)",
+                f"agents, a decision each {DECISION_MS} ms",
+                "mean difference from the truth, at most (95%)",
+                "s",
                 points(
                     {Config.of(row): at_most(row["seconds"]["difference"]) for row in rows}, speeds.agents
                 ),

@@ -1,7 +1,7 @@
 """The picture of a record: speed against each error, a panel for each.
 
 What no other configuration beats in both is coloured and named in its place; the rest is grey, and of it
-only the truth and what ships as default are named.
+only the truth and the default are named. The number in a mark is its tick length.
 """
 
 from pathlib import Path
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discjump.accuracy.plot import COLOURS
+from discjump.accuracy.plot import APART, COLOURS, spread_out
 from discjump_training.tradeoff.grid import TRUTH, Config
 from discjump_training.tradeoff.pareto import undominated
 from discjump_training.tradeoff.section import Panel, Point
@@ -18,10 +18,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 COLUMNS = 2
-GREY = "0.72"
-NAMED = (TRUTH, Config("authentic"))
+MARKS = {"triangles": "o", "bilinear": "s"}
+DEFAULT = Config("authentic")
+BESIDE = {TRUTH: ": the truth (0)", DEFAULT: ": the default"}
 """Named even where they are dominated."""
-APART = 0.038
+GREY, DARK = "0.80", "0.45"
+"""Of dominated marks, and of what is written about them."""
+NEAREST = 0.045
 """Between names, as a share of the panel's height."""
 
 
@@ -31,90 +34,110 @@ def draw(panels: list[Panel], path: Path) -> None:
 
     columns = min(COLUMNS, len(panels))
     lines = -(-len(panels) // columns)
-    figure = Figure(figsize=(5.6 * columns, 4.6 * lines + 0.5), layout="constrained")
+    figure = Figure(figsize=(5.8 * columns, 4.7 * lines + 0.6), layout="constrained")
     grid = figure.subplots(lines, columns, squeeze=False)
     for axes, panel in zip(grid.flat, panels, strict=False):
         show(axes, panel)
     for axes in grid.flat[len(panels) :]:
         axes.set_visible(False)
+    squares = ", squares the bilinear one" if _has_squares(panels) else ""
     figure.suptitle(
-        "Faster is to the right, more accurate is down: grey is beaten in both by another",
-        fontsize=11,
+        "Right is faster, down is more accurate; what is grey is beaten in both by another.\n"
+        f"The number is the tick in ms; circles are the triangulated terrain{squares}.",
+        fontsize=10,
     )
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=100)
 
 
 def show(axes: "Axes", panel: Panel) -> None:
     """One panel."""
+    from matplotlib.ticker import EngFormatter, NullFormatter
+
     best = undominated([point.speed[0] for point in panel.points], [point.error for point in panel.points])
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_major_formatter(EngFormatter(sep=""))
+    axes.yaxis.set_major_formatter(EngFormatter(unit=panel.unit))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_title(panel.title, loc="left", fontweight="bold", fontsize=10)
-    axes.set_xlabel(f"player-seconds simulated a second, {panel.speed}", fontsize=9)
+    axes.set_xlabel(f"player-seconds simulated a second ({panel.speed})", fontsize=9)
     axes.set_ylabel(panel.error, fontsize=9)
-    axes.grid(color="0.93", linewidth=0.6)
+    axes.grid(color="0.94", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
+    _limits(axes, panel)
     for point, kept in zip(panel.points, best, strict=True):
-        colour = COLOURS[point.config.tier] if kept else GREY
-        median, low, high = point.speed
-        height = max(point.error, panel.floor)
-        axes.plot([low, high], [height, height], color=colour, linewidth=1.0, zorder=1 + kept)
-        axes.plot([median], [height], "o", color=colour, markersize=6 if kept else 4, zorder=2 + kept)
-    _room(axes, panel)
-    told = [
-        (point, bool(kept))
-        for point, kept in zip(panel.points, best, strict=True)
-        if kept or point.config in NAMED
-    ]
-    _names(axes, panel, told)
+        _mark(axes, panel, point, kept=bool(kept))
+    marked = list(zip(panel.points, best, strict=True))
+    _names(axes, panel, [point for point, kept in marked if kept], kept=True)
+    _names(axes, panel, [point for point, kept in marked if not kept and point.config in BESIDE], kept=False)
 
 
-def _room(axes: "Axes", panel: Panel) -> None:
-    """Limits that leave room for names at the right; the lower end is `floor`."""
+def _has_squares(panels: list[Panel]) -> bool:
+    return any(MARKS[point.config.surface] == "s" for panel in panels for point in panel.points)
+
+
+def _limits(axes: "Axes", panel: Panel) -> None:
+    """Room for names at the right; the lower end is the panel's floor."""
     speeds = [point.speed[0] for point in panel.points]
     least, most = min(speeds), max(speeds)
-    wide = max(most / least, 1.5)
-    axes.set_xlim(least / wide**0.08, most * wide**0.55)
+    wide = max(most / least, 3.0)
+    axes.set_xlim(least / wide**0.1, most * wide**0.5)
     top = max(max(point.error for point in panel.points), 10.0 * panel.floor)
-    axes.set_ylim(panel.floor / 1.6, top * 2.0)
-    axes.axhline(panel.floor, color="0.8", linewidth=0.8, linestyle="dotted", zorder=0)
+    axes.set_ylim(panel.floor / 2.0, top * 2.5)
 
 
-def _names(axes: "Axes", panel: Panel, told: list[tuple[Point, bool]]) -> None:
-    """Names to the right of their points, moved apart where they would touch."""
-    axes.figure.canvas.draw_idle()
+def _mark(axes: "Axes", panel: Panel, point: Point, *, kept: bool) -> None:
+    """Median and quartiles of the speed, and the tick length."""
+    colour = COLOURS[point.config.tier] if kept else GREY
+    median, low, high = point.speed
+    height = max(point.error, panel.floor)
+    layer = 3 if kept else 1
+    axes.plot([low, high], [height, height], color=colour, linewidth=1.2, zorder=layer)
+    mark = MARKS[point.config.surface]
+    axes.plot([median], [height], mark, color=colour, markeredgecolor="white", markersize=11, zorder=layer)
+    axes.annotate(
+        f"{point.config.tick_ms}",
+        (median, height),
+        ha="center",
+        va="center_baseline",
+        fontsize=6,
+        color="white",
+        zorder=layer + 0.1,
+    )
+
+
+def _names(axes: "Axes", panel: Panel, named: list[Point], *, kept: bool) -> None:
+    """Names at the right of their marks, of dominated ones at the left where there is room; apart."""
     low, high = np.log10(axes.get_ylim())
     left, right = np.log10(axes.get_xlim())
-    heights = [(np.log10(max(p.error, panel.floor)) - low) / (high - low) for p, _ in told]
-    places = apart(heights, APART)
-    for (point, kept), place in zip(told, places, strict=True):
-        colour = COLOURS[point.config.tier] if kept else "0.45"
-        x = (np.log10(point.speed[0]) - left) / (right - left)
-        name = point.config.name
-        if point.error <= panel.floor:
-            name += ": the truth" if point.config == TRUTH else f" (at most {panel.floor:g})"
-        elif point.config in NAMED:
-            name += " (the default)" if point.config != TRUTH else ""
-        axes.annotate(
-            name,
-            (point.speed[0], max(point.error, panel.floor)),
-            (x + 0.03, place),
-            textcoords="axes fraction",
+
+    def across(speed: float) -> float:
+        return float((np.log10(speed) - left) / (right - left))
+
+    heights = [float((np.log10(max(point.error, panel.floor)) - low) / (high - low)) for point in named]
+    scale = APART / NEAREST
+    places = [place / scale for place in spread_out([height * scale for height in heights])]
+    for point, height, place in zip(named, heights, places, strict=True):
+        median, slow, fast = point.speed
+        to_left = not kept and across(median) > 0.45
+        colour = COLOURS[point.config.tier] if kept else DARK
+        text = point.config.name + BESIDE.get(point.config, "")
+        if point.error <= panel.floor and point.config != TRUTH:
+            text += f", below {panel.floor:g} {panel.unit}"
+        end, side = (across(slow), -1) if to_left else (across(fast), 1)
+        end += side * 0.016
+        x = end + side * 0.022
+        axes.plot([end, x], [height, place], color=colour, linewidth=0.6, transform=axes.transAxes)
+        axes.text(
+            x + side * 0.004,
+            place,
+            text,
             color=colour,
             fontsize=8.5,
+            ha="right" if to_left else "left",
             va="center",
-            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkB": 2},
+            transform=axes.transAxes,
+            zorder=5,
         )
-
-
-def apart(heights: list[float], least: float) -> list[float]:
-    """Heights at least so far apart, in the same order, as near to those given as that allows.
-
-    >>> [round(height, 2) for height in apart([0.5, 0.5, 0.1], 0.1)]
-    [0.45, 0.55, 0.1]
-    """
-    from discjump.accuracy.plot import APART as UNIT
-    from discjump.accuracy.plot import spread_out
-
-    return [height * least / UNIT for height in spread_out([height * UNIT / least for height in heights])]

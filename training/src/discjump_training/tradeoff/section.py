@@ -68,8 +68,10 @@ class Panel:
     title: str
     #: What the speed axis counts.
     speed: str
-    #: What the error axis counts, with its unit.
+    #: What the error axis counts.
     error: str
+    #: Of the error.
+    unit: str
     points: list[Point]
     #: Errors that are no larger lie on the lower end of the axis.
     floor: float
