@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from discjump_training.tradeoff import apex, outcomes, paths, record, report, speed
+from discjump.accuracy import measure
+from discjump_training.tradeoff import paths, record, report, speed
 from discjump_training.tradeoff.command import SECTIONS as NAMES
 from discjump_training.tradeoff.command import tradeoff
 from discjump_training.tradeoff.grid import QUICK, TRUTH, Config, Plan
@@ -85,9 +86,15 @@ def test_the_page_is_that_of_the_json(quick):
     short = page.split("## In short")[1].split("\n## ")[0]
     for row in figures["sections"]["errors"]["rows"]:
         if (row["situation"], row["against"]) == ("ski", "truth") and row["tier"] != paths.NUDGED:
-            cell = re.search(rf"^\| {Config.of(row).name} \|.* (\S+) \((\S+)\) \|", short, re.MULTILINE)
+            cell = search(rf"^\| {Config.of(row).name} \|.* (\S+) \((\S+)\) \|", short)
             wanted = [row["at"][-1]["position"][name] for name in ("median", "p95")]
             np.testing.assert_allclose([float(x) for x in cell.groups()], wanted, rtol=0.051)
+
+
+def search(pattern, text):
+    found = re.search(pattern, text, re.MULTILINE)
+    assert found is not None, pattern
+    return found
 
 
 def test_the_picture_shows_who_is_not_beaten(quick):
@@ -104,8 +111,8 @@ def test_the_same_command_again_measures_nothing(quick, monkeypatch):
     def refuse(*arguments):
         raise AssertionError("measured again")
 
-    for module, name in ((speed.clock, "prepare"), (paths, "run"), (outcomes, "play"), (apex, "apexes")):
-        monkeypatch.setattr(module, name, refuse)
+    for name in ("speed.clock.prepare", "paths.run", "outcomes.play", "apex.apexes"):
+        monkeypatch.setattr(f"discjump_training.tradeoff.{name}", refuse)
     assert run("--quick", "--out", out).exit_code == 0
     assert json.loads((out / "tradeoff.json").read_text()) == figures
 
@@ -147,7 +154,7 @@ def test_rounds_of_the_clock_are_kept(tmp_path):
         SECTIONS["speed"].run(TINY, store, Stopped(after=timings // 2))
     kept = {path: path.read_bytes() for path in tmp_path.rglob("*.json")}
     assert len(kept) == 1
-    done = []
+    done: list[int] = []
     made = SECTIONS["speed"].run(TINY, store, done.append)
     assert sum(done) == timings
     assert all(path.read_bytes() == content for path, content in kept.items())
@@ -186,7 +193,7 @@ def test_a_damaged_piece_is_made_again(tmp_path):
 
 
 def test_ctrl_c_says_how_to_go_on(tmp_path, monkeypatch):
-    real, calls = paths.run, []
+    real, calls = measure.run, []
 
     def interrupted(*arguments):
         calls.append(arguments)
@@ -194,7 +201,7 @@ def test_ctrl_c_says_how_to_go_on(tmp_path, monkeypatch):
             raise KeyboardInterrupt
         return real(*arguments)
 
-    monkeypatch.setattr(paths, "run", interrupted)
+    monkeypatch.setattr("discjump_training.tradeoff.paths.run", interrupted)
     words = [
         "--quick",
         "--sections",
