@@ -1,4 +1,4 @@
-"""Keys as functions of time: a play in ticks of another length is the same play."""
+"""A play in ticks of another length, or on another surface, is the same play."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
+from discjump import Terrain
 from discjump.accuracy import grounds
 from discjump.accuracy.plays import Play
 from discjump.accuracy.scripts import TICK_MS, held, resampled
@@ -98,3 +99,31 @@ def test_explosions_keep_their_time_or_wait_for_the_end_of_the_tick():
     np.testing.assert_array_equal(made.at(64).blasts[2], [[1.0] * 3, [2.0] * 3])
     with pytest.raises(ValueError, match="tick_ms: expected explosions of a player in different ticks"):
         play({3: one, 4: one}).at(64)
+
+
+def test_on_other_ground_nobody_starts_in_it():
+    rng = np.random.default_rng(0)
+    heights = rng.uniform(0.0, 20.0, (17, 17))
+    own, other = (Terrain.from_heights(one, 8.0, (-64.0, -64.0), "clamp") for one in (heights, heights[::-1]))
+    xy = rng.uniform(-60.0, 60.0, (200, 2)).astype(np.float32).astype(np.float64)
+    above = np.where(np.arange(200) % 2, 0.25, 6.0)
+    position = np.column_stack([xy, own.height(xy) + above])
+    points = np.column_stack([xy, own.height(xy)])
+    points[::3] = np.nan
+    script = held(TICKS, 200)
+    made = Play("", own, "sandbox", position, np.zeros((200, 3)), np.zeros(200), script, {3: points}).on(
+        other
+    )
+
+    clearance = made.position[:, 2] - other.height(xy)
+    assert clearance.min() > 0.25 - 1e-5
+    np.testing.assert_array_equal(made.position[:, :2], xy)
+    lifted = made.position[:, 2] - position.astype(np.float32)[:, 2]
+    assert lifted.min() == 0.0
+    # No higher than needed, and not at all where there is room.
+    np.testing.assert_allclose(clearance[lifted > 0.0], 0.25, atol=1e-5)
+    assert (lifted[own.height(xy) > other.height(xy)] == 0.0).all()
+    np.testing.assert_array_equal(np.isnan(made.blasts[3]), np.isnan(points))
+    np.testing.assert_allclose(made.blasts[3][1::3, 2], other.height(xy[1::3].copy()), atol=1e-9)
+    same = made.on(other)
+    np.testing.assert_array_equal(same.position, made.position)

@@ -12,6 +12,8 @@ from discjump.accuracy.scripts import TICK_MS, Inputs, resampled
 
 BROWSE = 64
 """Places looked at for each start that is wanted."""
+NEAR = 0.25
+"""How far above the ground players start who ski at once, m."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,25 @@ class Play:
         for name in ("position", "velocity", "yaw"):
             given = getattr(self, name)
             object.__setattr__(self, name, given.astype(np.float32).astype(np.float64))
+
+    def on(self, terrain: Terrain) -> "Play":
+        """The same play on other ground of nearly the same heights.
+
+        Who would start in that ground, or nearer to it than to his own, is lifted to as far above it, `NEAR`
+        at most. Explosions stay as far above the ground as they are.
+        """
+        xy = self.position[:, :2].copy()
+        clearance = np.minimum(self.position[:, 2] - self.terrain.height(xy), NEAR)
+        position = self.position.copy()
+        position[:, 2] = np.maximum(position[:, 2], terrain.height(xy) + clearance)
+        blasts = {}
+        for tick, points in self.blasts.items():
+            set_off = ~np.isnan(points).any(axis=1)
+            below = points[set_off, :2].copy()
+            moved = points.copy()
+            moved[set_off, 2] += terrain.height(below) - self.terrain.height(below)
+            blasts[tick] = moved
+        return replace(self, terrain=terrain, position=position, blasts=blasts)
 
     def at(self, tick_ms: int) -> "Play":
         """The same play in ticks of another length; explosions that fall within a tick wait for its end.
@@ -83,7 +104,7 @@ class Places:
         velocity: Floats = speed[:, None] * np.column_stack([self.ahead, climb])
         return velocity
 
-    def above(self, terrain: Terrain, clearance: float | Floats = 0.25) -> Floats:
+    def above(self, terrain: Terrain, clearance: float | Floats = NEAR) -> Floats:
         """Positions (n, 3), `clearance` m above the ground."""
         return np.column_stack([self.xy, terrain.height(self.xy) + clearance])
 
