@@ -72,6 +72,7 @@ def test_the_truth_has_no_error(quick):
         assert own
         for row in own:
             if name == "errors":
+                assert row["error"] in ("truth", "own")
                 assert {value for at in row["at"] for value in at["position"].values()} == {0.0}
             else:
                 assert {
@@ -85,7 +86,7 @@ def test_the_page_is_that_of_the_json(quick):
     assert page == report.render(figures)
     short = page.split("## In short")[1].split("\n## ")[0]
     for row in figures["sections"]["errors"]["rows"]:
-        if (row["situation"], row["against"]) == ("ski", "truth") and row["tier"] != paths.NUDGED:
+        if (row["situation"], row["error"]) == ("ski", "truth") and row["tier"] != paths.NUDGED:
             cell = search(rf"^\| {Config.of(row).name} \|.* (\S+) \((\S+)\) \|", short)
             wanted = [row["at"][-1]["position"][name] for name in ("median", "p95")]
             np.testing.assert_allclose([float(x) for x in cell.groups()], wanted, rtol=0.051)

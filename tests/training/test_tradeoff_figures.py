@@ -73,12 +73,26 @@ def test_figures_are_numpys():
 def test_the_reference_has_no_error_to_itself(situation):
     made = paths.Paths(SMALL)
     for tick_ms in TICK_MS:
-        rows = {row["against"]: row for row in paths.compared(made, situation, Config(TRUTH.tier, tick_ms))}
+        rows = {row["error"]: row for row in paths.compared(made, situation, Config(TRUTH.tier, tick_ms))}
         for at in rows["own"]["at"]:
             assert set(at["position"].values()) == {0.0}
         assert {of["share"] for of in rows["own"]["until"].values()} == {0.0}
         # Another tick is another game.
         assert (rows["truth"]["at"][-1]["position"]["median"] > 0.01) == (tick_ms != TRUTH.tick_ms)
+
+
+def test_movement_and_digits_share_out_the_error():
+    made = paths.Paths(SMALL)
+    rows = {
+        (tier, row["error"]): row["at"][-1]["position"]
+        for tier in ("authentic", "fast", "engine")
+        for row in paths.compared(made, "crease", Config(tier))
+    }
+    # The movement of `authentic` is that of the reference; `fast` moves otherwise where two contacts meet.
+    assert set(rows["authentic", "movement"].values()) == {0.0}
+    assert rows["authentic", "digits"] == rows["authentic", "own"] == rows["authentic", "truth"]
+    assert 0.0 < rows["authentic", "digits"]["median"] < 0.01 < rows["fast", "movement"]["largest"]
+    assert rows["engine", "movement"]["median"] > 100.0 * rows["engine", "digits"]["median"] > 0.0
 
 
 def test_paths_are_sampled_at_the_same_times():

@@ -55,17 +55,25 @@ def ticks_of(seconds: float) -> int:
     return round(seconds / TICK)
 
 
-def run(play: Play, tier: str, every: int = 1) -> Path:
+def run(play: Play, tier: str, every: int = 1, precision: str | None = None) -> Path:
     """Play a batch in one tier.
 
     Args:
         play: what is played.
         tier: one of the tiers, or `nudged`.
         every: how many ticks from one place of the path to the next.
+        precision: "float32" or "float64"; None for the tier's own.
     """
     nudged = tier == "nudged"
     fidelity = "reference" if nudged else tier
-    sim = Simulator(play.terrain, len(play.position), play.scene, fidelity=fidelity, tick_ms=play.tick_ms)
+    sim = Simulator(
+        play.terrain,
+        len(play.position),
+        play.scene,
+        fidelity=fidelity,
+        precision=precision,
+        tick_ms=play.tick_ms,
+    )
     state = sim.state()
     for name in ("position", "velocity", "yaw"):
         state[name] = getattr(play, name)

@@ -65,14 +65,13 @@ class Errors:
             *[f"- **{name}**: {what}" for name, what in made["situations"].items()],
             "",
         ]
-        for against, said in TOLD.items():
-            rows = [row for row in made["rows"] if row["against"] == against]
-            lines += [f"### Position error {said} after {times} s, m: median", ""]
-            lines += _grid(rows, lambda row: " / ".join(number(at["position"]["median"]) for at in row["at"]))
-            lines += ["", f"### The same after {last} s: 95th percentile", ""]
-            lines += _grid(rows, lambda row: number(row["at"][-1]["position"]["p95"]))
-            lines.append("")
-        rows = [row for row in made["rows"] if row["against"] == "truth"]
+        rows = {error: [row for row in made["rows"] if row["error"] == error] for error in TOLD}
+        lines += [f"### Position error {TOLD['truth']} after {times} s, m: median", ""]
+        lines += _grid(rows["truth"], _medians)
+        for error, said in TOLD.items():
+            lines += ["", f"### Position error {said}, after {last} s, m: median (95th percentile)", ""]
+            lines += _grid(rows[error], _spread)
+        lines.append("")
         limits = " / ".join(_length(limit) for limit in LIMITS)
         lines += [
             f"### Seconds until {limits} from the truth: median over starts (share that got there, %)",
@@ -80,7 +79,8 @@ class Errors:
             f"\u201c>{last}\u201d: fewer than half of the starts got there in the {last} s played.",
             "",
             *_grid(
-                rows, lambda row: " / ".join(_until(row["until"][f"{limit:g}"], last) for limit in LIMITS)
+                rows["truth"],
+                lambda row: " / ".join(_until(row["until"][f"{limit:g}"], last) for limit in LIMITS),
             ),
             "",
         ]
@@ -91,7 +91,7 @@ class Errors:
         rows = [
             row
             for row in made["rows"]
-            if (row["situation"], row["against"]) == ("ski", "truth") and row["tier"] != NUDGED
+            if (row["situation"], row["error"]) == ("ski", "truth") and row["tier"] != NUDGED
         ]
         if not rows:
             return []
@@ -132,6 +132,15 @@ def _grid(rows: list[dict[str, Any]], cell: Any) -> list[str]:
         "|---" * (1 + len(names)) + "|",
         *(f"| {NUDGED if c.tier == NUDGED else c.name} | {' | '.join(of)} |" for c, of in cells.items()),
     ]
+
+
+def _medians(row: dict[str, Any]) -> str:
+    return " / ".join(number(at["position"]["median"]) for at in row["at"])
+
+
+def _spread(row: dict[str, Any]) -> str:
+    position = row["at"][-1]["position"]
+    return f"{number(position['median'])} ({number(position['p95'])})"
 
 
 def _until(times: dict[str, float | None], last: str) -> str:

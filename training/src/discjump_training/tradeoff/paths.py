@@ -29,8 +29,10 @@ NUDGED = "nudged"
 TOLD = {
     "truth": "from the truth",
     "own": "from `reference` with the same tick and surface",
+    "movement": "of the movement alone: the tier in float64, from `reference` with the same tick and surface",
+    "digits": "of the digits alone: the tier in float32, from itself in float64",
 }
-"""What errors are distances from."""
+"""What errors are distances from. The last two share out `own`."""
 
 
 class Paths:
@@ -46,17 +48,22 @@ class Paths:
         self._plays: list[Play] = []
         self._kept: dict[Config, Path] = {}
 
-    def of(self, situation: str, config: Config) -> Path:
-        """Positions (samples, starts, 3) and speeds (samples, starts), every `SAMPLE_MS`."""
+    def of(self, situation: str, config: Config, precision: str | None = None) -> Path:
+        """Positions (samples, starts, 3) and speeds (samples, starts), every `SAMPLE_MS`.
+
+        Args:
+            situation: by name.
+            config: in which it is played.
+            precision: "float64", or None for the tier's own.
+        """
         if situation != self._situation:
             ticks = samples(self._plan.seconds) * SAMPLE_MS // GAME_TICK_MS
             self._plays = SITUATIONS[situation].plays(SEED, self._plan.starts, ticks)
             self._situation, self._kept = situation, {}
         if config in self._kept:
             return self._kept[config]
-        paths = [
-            run(play.at(config.tick_ms), config.tier, SAMPLE_MS // config.tick_ms) for play in self._plays
-        ]
+        every = SAMPLE_MS // config.tick_ms
+        paths = [run(play.at(config.tick_ms), config.tier, every, precision) for play in self._plays]
         path = Path(
             np.concatenate([one.position for one in paths], axis=1),
             np.concatenate([one.speed for one in paths], axis=1),
@@ -67,14 +74,18 @@ class Paths:
 
 
 def compared(paths: Paths, situation: str, config: Config) -> list[dict[str, Any]]:
-    """A row for each of `TOLD`."""
-    path = paths.of(situation, config)
-    others = {"truth": TRUTH, "own": Config(TRUTH.tier, config.tick_ms, config.surface)}
+    """A row for each of `TOLD` that there is: `reference` has float64 alone, the yardstick the truth."""
+    path, truth = paths.of(situation, config), paths.of(situation, TRUTH)
+    pairs = {"truth": (path, truth)}
+    if config.tier != NUDGED:
+        own = paths.of(situation, Config(TRUTH.tier, config.tick_ms, config.surface))
+        pairs["own"] = (path, own)
+        if config.tier != TRUTH.tier:
+            exact = paths.of(situation, config, "float64")
+            pairs |= {"movement": (exact, own), "digits": (path, exact)}
     return [
-        {"situation": situation, **config.keys, "against": against}
-        | figures(path, paths.of(situation, others[against]))
-        for against in TOLD
-        if against == "truth" or config.tier != NUDGED
+        {"situation": situation, **config.keys, "error": error} | figures(*pair)
+        for error, pair in pairs.items()
     ]
 
 

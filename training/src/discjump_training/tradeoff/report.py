@@ -67,7 +67,7 @@ def _columns(made: dict[str, Any]) -> dict[str, dict[Config, str]]:
         columns[head] = {
             Config.of(row): f"{number(at['median'])} ({number(at['p95'])})"
             for row in made["errors"]["rows"]
-            if (row["situation"], row["against"]) == ("ski", "truth")
+            if (row["situation"], row["error"]) == ("ski", "truth")
             for at in [row["at"][-1]["position"]]
         }
     if "outcomes" in made:
