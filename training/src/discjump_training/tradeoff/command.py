@@ -105,7 +105,7 @@ def _measure(plan: Plan, wanted: tuple[str, ...], anew: bool, out: Path, words: 
     from discjump_training.tradeoff import record as recording
     from discjump_training.tradeoff.store import Store
 
-    store = Store(out / "pieces")
+    store = Store(out)
     made = recording.measure(plan, wanted, store, anew=anew)
     record = {
         "command": shlex.join(words),

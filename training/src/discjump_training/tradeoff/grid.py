@@ -68,6 +68,8 @@ class Config:
 
 TRUTH = Config("reference")
 """What errors are measured against."""
+DEFAULT = Config("authentic")
+"""What the environments are without options."""
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from discjump_training.tradeoff.section import Panel
+
 
 def undominated(speed: ArrayLike, error: ArrayLike) -> NDArray[np.bool_]:
     """Which entries no other dominates.
@@ -29,4 +31,11 @@ def undominated(speed: ArrayLike, error: ArrayLike) -> NDArray[np.bool_]:
             kept[index] = True
         else:
             kept[index] = wrong[index] == least and fast[index] == at
+    return kept
+
+
+def unbeaten(panel: Panel) -> list[bool]:
+    """Whether no other point of the panel dominates a point, by median speed."""
+    speeds, errors = zip(*((point.speed[0], point.error) for point in panel.points), strict=True)
+    kept: list[bool] = undominated(speeds, errors).tolist()
     return kept

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discjump.accuracy.plot import APART, COLOURS, spread_out
-from discjump_training.tradeoff.grid import TRUTH, Config
-from discjump_training.tradeoff.pareto import undominated
+from discjump_training.tradeoff.grid import DEFAULT, TRUTH
+from discjump_training.tradeoff.pareto import unbeaten
 from discjump_training.tradeoff.section import Panel, Point
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 COLUMNS = 2
 MARKS = {"triangles": "o", "bilinear": "s"}
-DEFAULT = Config("authentic")
 BESIDE = {TRUTH: ": the truth (0)", DEFAULT: ": the default"}
 """Named even where they are dominated."""
 GREY, DARK = "0.80", "0.45"
@@ -53,7 +52,7 @@ def show(axes: "Axes", panel: Panel) -> None:
     """One panel."""
     from matplotlib.ticker import EngFormatter, NullFormatter
 
-    best = undominated([point.speed[0] for point in panel.points], [point.error for point in panel.points])
+    best = unbeaten(panel)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.xaxis.set_major_formatter(EngFormatter(sep=""))

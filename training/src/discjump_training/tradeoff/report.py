@@ -3,8 +3,9 @@
 from typing import Any
 
 from discjump.accuracy.report import number
-from discjump_training.tradeoff.grid import LEFT_OUT, SURFACES, TRUTH, Config
-from discjump_training.tradeoff.sections import SECTIONS
+from discjump_training.tradeoff.grid import DEFAULT, LEFT_OUT, SURFACES, TRUTH, Config
+from discjump_training.tradeoff.pareto import unbeaten
+from discjump_training.tradeoff.sections import SECTIONS, panels
 from discjump_training.tradeoff.speed import speeds
 
 Record = dict[str, Any]
@@ -36,22 +37,38 @@ def render(record: Record) -> str:
 
 
 def summary(record: Record) -> list[str]:
-    """A line for each configuration: speed and the errors that one looks at first."""
-    columns = _columns(record["sections"])
+    """Speed and the errors that one looks at first: of what nothing beats in some panel, then of all."""
     configs = [Config.of(row) for row in record["configs"]]
-    heads = [head for head, cells in columns.items() if cells]
-    if not heads:
-        return []
+    best = {DEFAULT, TRUTH} | {
+        point.config
+        for panel in panels(record["sections"])
+        for point, kept in zip(panel.points, unbeaten(panel), strict=True)
+        if kept
+    }
     return [
         "## In short",
         "",
-        f"| configuration | {' | '.join(heads)} |",
-        "|---" * (1 + len(heads)) + "|",
+        f"The default (`{DEFAULT.name}`), the truth, and what no other beats in both speed and error in some "
+        "panel of the picture. Below, everything.",
+        "",
+        *_lines(record["sections"], [config for config in configs if config in best]),
+        "",
+        "## All configurations",
+        "",
+        *_lines(record["sections"], configs),
+        "",
+    ]
+
+
+def _lines(made: dict[str, Any], configs: list[Config]) -> list[str]:
+    columns = {head: cells for head, cells in _columns(made).items() if cells}
+    return [
+        f"| configuration | {' | '.join(columns)} |",
+        "|---" * (1 + len(columns)) + "|",
         *(
-            f"| {config.name} | {' | '.join(columns[head].get(config, '') for head in heads)} |"
+            f"| {config.name} | {' | '.join(cells.get(config, '') for cells in columns.values())} |"
             for config in configs
         ),
-        "",
     ]
 
 

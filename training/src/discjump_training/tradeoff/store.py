@@ -26,16 +26,21 @@ class Missing(Exception):
 
 
 class Store:
-    """Pieces in a folder.
+    """Pieces of work, in `pieces/` of a folder.
 
     Args:
-        folder: where; made when the first piece is written.
+        folder: of the whole measurement; made when the first piece is written.
         frozen: nothing is made any more: a piece that is not there raises `Missing`.
     """
 
     def __init__(self, folder: Path, *, frozen: bool = False) -> None:
         self.folder = folder
         self.frozen = frozen
+
+    @property
+    def pieces(self) -> Path:
+        """A folder for each section."""
+        return self.folder / "pieces"
 
     def piece(self, section: str, identity: Mapping[str, Any], make: Callable[[], Any]) -> Any:
         """What `make` returns, from disk if it was made before.
@@ -50,7 +55,7 @@ class Store:
         """
         text = json.dumps(identity, sort_keys=True)
         name = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
-        path = self.folder / section / f"{name}.json"
+        path = self.pieces / section / f"{name}.json"
         found = _read(path)
         if isinstance(found, dict) and found.get("identity") == json.loads(text):
             return found["made"]
@@ -63,7 +68,7 @@ class Store:
 
     def forget(self, section: str) -> None:
         """Remove all pieces of a section."""
-        shutil.rmtree(self.folder / section, ignore_errors=True)
+        shutil.rmtree(self.pieces / section, ignore_errors=True)
 
 
 def _read(path: Path) -> Any:
