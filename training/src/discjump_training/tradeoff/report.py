@@ -6,7 +6,7 @@ from discjump.accuracy.report import number
 from discjump_training.tradeoff.grid import DEFAULT, LEFT_OUT, SURFACES, TRUTH, Config
 from discjump_training.tradeoff.pareto import unbeaten
 from discjump_training.tradeoff.sections import SECTIONS, panels
-from discjump_training.tradeoff.speed import speeds
+from discjump_training.tradeoff.speed import digits, speeds
 
 Record = dict[str, Any]
 
@@ -78,7 +78,7 @@ def _columns(made: dict[str, Any]) -> dict[str, dict[Config, str]]:
         of = speeds(made["speed"])
         for what, values in (("physics", of.physics), ("agents", of.agents)):
             head = f"{what}, thousand player-seconds/s"
-            columns[head] = {config: f"{spread[0] / 1e3:,.3g}" for config, spread in values.items()}
+            columns[head] = {config: digits(spread[0] / 1e3) for config, spread in values.items()}
     if "errors" in made:
         head = f"skier's path after {made['errors']['seconds'][-1]:.0f} s, m: median (95th percentile)"
         columns[head] = {

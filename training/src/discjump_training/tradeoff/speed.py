@@ -171,8 +171,17 @@ def _agents(made: Made) -> list[str]:
 
 
 def _cell(values: dict[str, float], scale: float) -> str:
-    median, low, high = (values[name] / scale for name in ("median", "low", "high"))
-    return f"{median:,.3g} ({low:,.3g} .. {high:,.3g})"
+    median, low, high = (digits(values[name] / scale) for name in ("median", "low", "high"))
+    return f"{median} ({low} .. {high})"
+
+
+def digits(value: float) -> str:
+    """Three significant digits, whole numbers from 100 on.
+
+    >>> [digits(value) for value in (0.98765, 12.34, 98765.4)]
+    ['0.988', '12.3', '98,765']
+    """
+    return f"{value:,.0f}" if value >= 99.95 else f"{value:.3g}"
 
 
 def _plural(threads: int) -> str:
