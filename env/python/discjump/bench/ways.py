@@ -56,6 +56,9 @@ class Players:
     lanes: int | None = None
     scene: str = "ski"
     fidelity: str = "authentic"
+    precision: str | None = None
+    tick_ms: int = 32
+    armor: str = "light"
     ticks: int = 4
     square: tuple[tuple[float, float], float] = WHOLE
     solids: int | None = 0
@@ -80,6 +83,9 @@ class Players:
                 self.count,
                 scene=self.scene,
                 fidelity=self.fidelity,
+                precision=self.precision,
+                tick_ms=self.tick_ms,
+                armor=self.armor,
                 threads=self.threads,
                 lanes=self.lanes,
             )
