@@ -13,7 +13,7 @@ from discjump_training.cli import INTERRUPTED, clean_errors
 from discjump_training.tradeoff.grid import FRAME_SKIPS, QUICK, SURFACES, TICK_MS, TIERS, Plan
 
 OUT = Path("runs/tradeoff")
-SECTIONS = ("speed", "errors", "outcomes", "apex")
+SECTIONS = ("speed", "instructions", "errors", "outcomes", "apex")
 
 
 class Several(click.ParamType[tuple[Any, ...]]):
@@ -79,9 +79,9 @@ class Several(click.ParamType[tuple[Any, ...]]):
 def tradeoff(sections: tuple[str, ...] | None, quick: bool, anew: bool, out: Path, **asked: Any) -> None:
     """What speed costs in accuracy: every tier x tick length x terrain surface x frame skip.
 
-    speed: player-ticks and agent steps a second. errors: distance in m from the truth (`reference`, ticks of
-    32 ms, triangles) after the same keys, by situation. outcomes: what a scripted skier notices, in s, m/s
-    and damage. apex: height of a disc jump, m.
+    speed: player-ticks and agent steps a second. instructions: of a player-tick (needs valgrind). errors:
+    distance in m from the truth (`reference`, ticks of 32 ms, triangles) after the same keys, by situation.
+    outcomes: what a scripted skier notices, in s, m/s and damage. apex: height of a disc jump, m.
 
     Ctrl-C at any time: what is finished stays, and the same command goes on. What an earlier run left in the
     folder is shown together with the sections measured now, if it was made with the same options, versions

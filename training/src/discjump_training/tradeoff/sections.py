@@ -2,11 +2,12 @@
 
 from discjump_training.tradeoff.apex import Apex
 from discjump_training.tradeoff.errors import Errors
+from discjump_training.tradeoff.instructions import Instructions
 from discjump_training.tradeoff.outcomes import Outcomes
 from discjump_training.tradeoff.section import Made, Panel, Section
 from discjump_training.tradeoff.speed import Speed, speeds
 
-_ALL: tuple[Section, ...] = (Speed(), Errors(), Outcomes(), Apex())
+_ALL: tuple[Section, ...] = (Speed(), Instructions(), Errors(), Outcomes(), Apex())
 SECTIONS: dict[str, Section] = {section.name: section for section in _ALL}
 """By name."""
 
