@@ -63,6 +63,7 @@ class Players:
     lift: float = 0.0
     """Height of the lowest over the ground, m."""
     calls: int = 64
+    tick_ms: int = 32
 
     @property
     def units(self) -> int:
@@ -80,6 +81,7 @@ class Players:
                 self.count,
                 scene=self.scene,
                 fidelity=self.fidelity,
+                tick_ms=self.tick_ms,
                 threads=self.threads,
                 lanes=self.lanes,
             )
@@ -159,6 +161,8 @@ class Vector:
     frame_skip: int = 1
     threads: int = 2
     dtype: str = "int64"
+    fidelity: str = "authentic"
+    tick_ms: int = 32
     calls: ClassVar[int | None] = None
 
     @property
@@ -169,7 +173,12 @@ class Vector:
     def make(self) -> Ready:
         """The environments, reset."""
         envs = gymnasium.make_vec(
-            ENV_ID, num_envs=self.num_envs, frame_skip=self.frame_skip, threads=self.threads
+            ENV_ID,
+            num_envs=self.num_envs,
+            frame_skip=self.frame_skip,
+            threads=self.threads,
+            fidelity=self.fidelity,
+            tick_ms=self.tick_ms,
         )
         observations, _ = envs.reset(seed=0)
         actions = random_actions(self.num_envs, np.dtype(self.dtype))
