@@ -10,7 +10,7 @@ use discjump_core::real::{Scalar, V3};
 use discjump_core::terrain::{Heightfield, Hit, Maps, Surface, SurfaceKind};
 
 /// Paths on every world.
-const PATHS: usize = 4_000;
+const PATHS: usize = 2_500;
 
 /// Places a rounding aside.
 fn aside(eps: f64) -> impl Iterator<Item = [f64; 2]> {
@@ -38,7 +38,8 @@ fn answers(
     answers
 }
 
-/// Whether two answers are one: at one place, or all the way between them the path is on the surface.
+/// Whether two answers are one: at one place, or between them the path comes no nearer to the surface: a crest
+/// of the gap, where it begins to sink in, is flat.
 fn same<T: Scalar>(
     witness: &Witness,
     hit: &Hit<T>,
@@ -59,7 +60,10 @@ fn same<T: Scalar>(
         witness.height(p[0], p[1]).map_or(0.0, |ground| p[2] - ground)
     };
     (high - low) * length <= 8.0 * eps
-        || (0..=8).all(|k| gap(low + (high - low) * f64::from(k) / 8.0).abs() <= 8.0 * eps)
+        || (0..=8).all(|k| {
+            let between = gap(low + (high - low) * f64::from(k) / 8.0);
+            (between - gap(low)).abs() <= 8.0 * eps
+        })
 }
 
 /// The normal is that of the ground somewhere between the contact and where the path leaves that square, and
@@ -110,7 +114,7 @@ fn everywhere<T: Scalar>(
 }
 
 fn sweeps<T: Scalar>(eps: f64) {
-    let (mut asked, mut hits, mut starts, mut close) = (0, 0, 0, 0);
+    let (mut asked, mut hits, mut starts, mut close, mut tangents) = (0, 0, 0, 0, 0);
     everywhere::<T>(eps, |world, witness, surface, (start, path), eps| {
         let hit = surface.sweep::<T>(0, start, path, true);
         let passes = surface.passes::<T>(0, start, path);
@@ -130,7 +134,13 @@ fn sweeps<T: Scalar>(eps: f64) {
         }
         close += 1;
         let right = answers(|s, p, sliver| witness.sweep(s, p, sliver), start, path, eps);
-        let agree = right.iter().any(|met| same(witness, &hit, *met, start, path, eps));
+        let mut agree = right.iter().any(|met| same(witness, &hit, *met, start, path, eps));
+        if !agree && hit.hit && plain.is_none_or(|met| met.at > fraction) {
+            // From below along the tangent: whether it sinks in for a hair before it rises, no search can tell.
+            let [sx, sy] = witness.slopes(start[0] + path[0] * fraction, start[1] + path[1] * fraction);
+            agree = (path[2] - sx * path[0] - sy * path[1]).abs() <= 10.0 * eps;
+            tangents += usize::from(agree);
+        }
         assert!(agree, "{}: {start:?} {path:?}: {hit:?}, right {plain:?}", world.name);
     });
     println!(
@@ -138,7 +148,7 @@ fn sweeps<T: Scalar>(eps: f64) {
         T::DOUBLE
     );
     assert!(asked >= 20_000 && hits * 3 > asked && hits * 10 < 9 * asked && starts * 20 > asked);
-    assert!(close * 10 < asked, "{close} of {asked} decided by rounding");
+    assert!(close * 10 < asked && tangents * 1000 < asked, "{close} and {tangents} of {asked} by rounding");
 }
 
 #[test]

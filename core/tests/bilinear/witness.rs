@@ -139,7 +139,7 @@ impl Witness {
     fn crossing(&self, start: Vector, path: Vector, slide: &Slide) -> f64 {
         let (mut low, mut high) = (slide.from, slide.to);
         let above = slide.gaps[0] > 0.0;
-        for _ in 0..80 {
+        for _ in 0..64 {
             let middle = 0.5 * (low + high);
             let p = [0, 1, 2].map(|k| start[k] + path[k] * middle);
             let Some(ground) = self.height(p[0], p[1]) else { break };
@@ -188,7 +188,7 @@ fn tilt([sw, se, nw, ne]: [f64; 4], [u, v]: [f64; 2], size: f64) -> [f64; 2] {
 
 fn ternary(f: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (from, to) = (low, high);
-    for _ in 0..120 {
+    for _ in 0..60 {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if f(a) < f(b) { high = b } else { low = a }
     }
