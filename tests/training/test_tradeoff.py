@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -61,6 +62,33 @@ def test_quick_form_measures_every_configuration(quick):
         assert list(row["rate"].values()) == pytest.approx([middle, low, high], rel=1e-12)
         seconds = row["tick_ms"] / 1000 * (row["frame_skip"] or 1)
         assert row["player_seconds_per_second"]["median"] == pytest.approx(middle * seconds, rel=1e-12)
+
+
+def test_instructions_are_counted_where_valgrind_is(quick):
+    rows = quick[1]["sections"]["instructions"]["rows"]
+    if shutil.which("valgrind") is None:
+        assert "valgrind" in quick[1]["sections"]["instructions"]["missing"]
+        return
+    counts = {(Config.of(row), row["lanes"]): row["per_player_tick"] for row in rows}
+    assert len(counts) == len(rows) == (5 + 3) * len(QUICK.tick_ms) * len(QUICK.surfaces)
+    for (config, lanes), count in counts.items():
+        assert 50.0 < count < 5_000.0
+        assert count <= counts[config, 1]
+        # Slices are of a metre: longer ticks have more.
+        if lanes == 1 and config.tick_ms == 64:
+            assert count > counts[replace(config, tick_ms=32), 1]
+
+
+def test_without_valgrind_the_rest_is_measured(tmp_path, monkeypatch):
+    monkeypatch.setattr("discjump.bench.instructions.available", lambda: False)
+    made = record.measure(TINY, ("instructions", "apex"), Store(tmp_path))
+    assert made["instructions"]["rows"] == []
+    assert "apt-get install valgrind" in made["instructions"]["missing"]
+    assert made["apex"]["rows"]
+    assert "Not counted: valgrind" in "\n".join(SECTIONS["instructions"].tables(made["instructions"]))
+    # It is not taken for an answer once valgrind is there.
+    with pytest.raises(Missing):
+        SECTIONS["instructions"].run(TINY, Store(tmp_path, frozen=True), lambda _: None)
 
 
 def test_the_truth_has_no_error(quick):
@@ -235,7 +263,8 @@ def tupled(plan):
 
 def test_anew_measures_again_and_shows_the_rest(tmp_path):
     store = Store(tmp_path)
-    made = record.measure(TINY, NAMES, store)
+    wanted = tuple(name for name in NAMES if name != "instructions")
+    made = record.measure(TINY, wanted, store)
     again = record.measure(TINY, ("speed",), store, anew=True)
     assert all(again[name] == made[name] for name in EXACT)
     rates = [[row["rates"] for row in of["speed"]["rows"]] for of in (made, again)]
@@ -259,7 +288,7 @@ def test_panels_have_both_speed_and_error(quick):
     ("arguments", "message"),
     [
         (["--tiers", "fats"], "'fats' is none of reference, authentic, swept, fast, engine"),
-        (["--sections", "speed,errors,nothing"], "'nothing' is none of speed, errors"),
+        (["--sections", "speed,errors,nothing"], "'nothing' is none of speed, instructions, errors"),
         (["--tick-ms", "10"], "'10' is none of 8, 16, 32, 64"),
         (["--tick-ms", ""], "'' is none of 8, 16, 32, 64"),
         (["--surfaces", "spheres"], "'spheres' is none of triangles"),

@@ -56,6 +56,9 @@ class Players:
     lanes: int | None = None
     scene: str = "ski"
     fidelity: str = "authentic"
+    precision: str | None = None
+    tick_ms: int = 32
+    armor: str = "light"
     ticks: int = 4
     square: tuple[tuple[float, float], float] = WHOLE
     solids: int | None = 0
@@ -63,7 +66,6 @@ class Players:
     lift: float = 0.0
     """Height of the lowest over the ground, m."""
     calls: int = 64
-    tick_ms: int = 32
 
     @property
     def units(self) -> int:
@@ -81,7 +83,9 @@ class Players:
                 self.count,
                 scene=self.scene,
                 fidelity=self.fidelity,
+                precision=self.precision,
                 tick_ms=self.tick_ms,
+                armor=self.armor,
                 threads=self.threads,
                 lanes=self.lanes,
             )

@@ -13,7 +13,7 @@ from discjump_training.cli import INTERRUPTED, clean_errors
 from discjump_training.tradeoff.grid import FRAME_SKIPS, QUICK, SURFACES, TICK_MS, TIERS, Plan
 
 OUT = Path("runs/tradeoff")
-SECTIONS = ("speed", "errors", "outcomes", "apex", "transfer", "training")
+SECTIONS = ("speed", "instructions", "errors", "outcomes", "apex", "transfer", "training")
 
 
 class Several(click.ParamType[tuple[Any, ...]]):
@@ -85,10 +85,11 @@ class Several(click.ParamType[tuple[Any, ...]]):
 def tradeoff(sections: tuple[str, ...] | None, quick: bool, anew: bool, out: Path, **asked: Any) -> None:
     """What speed costs in accuracy: every tier x tick length x terrain surface x frame skip.
 
-    speed: player-ticks and agent steps a second. errors: distance in m from the truth (`reference`, ticks of
-    32 ms, triangles) after the same keys, by situation. outcomes: what a scripted skier notices, in s, m/s
-    and damage. apex: height of a disc jump, m. transfer: policies trained in each physics and judged in the
-    task (one and a half minutes for each of 45 trainings, kept in OUT/runs). training: how long they take.
+    speed: player-ticks and agent steps a second. instructions: of a player-tick (needs valgrind). errors:
+    distance in m from the truth (`reference`, ticks of 32 ms, triangles) after the same keys, by situation.
+    outcomes: what a scripted skier notices, in s, m/s and damage. apex: height of a disc jump, m.
+    transfer: policies trained in each physics and judged in the task (a minute and a half for each of 45
+    trainings, kept in OUT/runs). training: how long they take.
 
     Ctrl-C at any time: what is finished stays, and the same command goes on. What an earlier run left in the
     folder is shown together with the sections measured now, if it was made with the same options, versions

@@ -39,10 +39,10 @@ def draw(panels: list[Panel], path: Path) -> None:
         show(axes, panel)
     for axes in grid.flat[len(panels) :]:
         axes.set_visible(False)
-    squares = ", squares the bilinear one" if _has_squares(panels) else ""
+    marks = "Circles: triangulated terrain; squares: bilinear." if _has_squares(panels) else ""
     figure.suptitle(
         "Right is faster, down is more accurate; what is grey is beaten in both by another.\n"
-        f"The number is the tick in ms; circles are the triangulated terrain{squares}.",
+        f"The number is the tick in ms; the game's is {TRUTH.tick_ms}, others are other games. {marks}",
         fontsize=10,
     )
     figure.savefig(path, dpi=100)
@@ -82,7 +82,7 @@ def _limits(axes: "Axes", panel: Panel) -> None:
     speeds = [point.speed[0] for point in panel.points]
     least, most = min(speeds), max(speeds)
     wide = max(most / least, 3.0)
-    axes.set_xlim(least / wide**0.1, most * wide**0.5)
+    axes.set_xlim(least / wide**0.1, most * wide**0.62)
     top = max(max(point.error for point in panel.points), 10.0 * panel.floor)
     axes.set_ylim(panel.floor / 2.0, top * 2.5)
 

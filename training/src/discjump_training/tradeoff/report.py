@@ -79,6 +79,12 @@ def _columns(made: dict[str, Any]) -> dict[str, dict[Config, str]]:
         for what, values in (("physics", of.physics), ("agents", of.agents)):
             head = f"{what}, thousand player-seconds/s"
             columns[head] = {config: digits(spread[0] / 1e3) for config, spread in values.items()}
+    if "instructions" in made:
+        columns["instructions a tick, one player at a time"] = {
+            Config.of(row): digits(row["per_player_tick"])
+            for row in made["instructions"]["rows"]
+            if row["lanes"] == 1
+        }
     if "errors" in made:
         head = f"skier's path after {made['errors']['seconds'][-1]:.0f} s, m: median (95th percentile)"
         columns[head] = {
