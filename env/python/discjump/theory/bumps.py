@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from discjump._native import Terrain
-from discjump.theory.forms import GRAVITY
 from discjump.simulator import Physics, Simulator
+from discjump.theory.forms import GRAVITY
 from discjump.theory.lab import TICK_MS, Floats, State, Tier, exact32, make, start
 
 SQUARES = (8.0, 4.0, 2.0, 1.0)

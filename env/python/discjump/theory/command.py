@@ -4,6 +4,7 @@ import json
 import shlex
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -61,33 +62,30 @@ def record(quick: bool) -> dict[str, Any]:
     starts = 8 if quick else 32
     points = 34 * (2 if quick else 25) + 1
     ticks_ms = convergence.TICKS_MS[3:] if quick else convergence.TICKS_MS
-    reference = TIERS[0]
     work: dict[str, list[Callable[[], Any]]] = {
         "convergence": [
-            lambda name=name, tier=tier: _converge(name, tier, starts)  # type: ignore[misc]
-            for name in convergence.CASES
-            for tier in TIERS
+            partial(_converge, name, tier, starts) for name in convergence.CASES for tier in TIERS
         ],
-        "figures": [lambda figure=figure: figure.row(TIERS) for figure in figures.figures()],  # type: ignore[misc]
+        "figures": [partial(figure.row, TIERS) for figure in figures.figures()],
         "blasts": [
-            lambda a=armor, f=formula, t=tier: blasts.measure(t, a, f, points)  # type: ignore[misc]
+            partial(blasts.measure, tier, armor, formula, points)
             for armor in ARMORS
             for formula in blasts.FORMULAS
             for tier in TIERS
         ],
         "hops": [
-            lambda t=tier, s=slope, k=keys: hops.measure(t, s, k)  # type: ignore[misc]
+            partial(hops.measure, tier, slope, keys)
             for slope in slopes
             for keys in hops.KEYS
             for tier in TIERS
         ],
         "limit": [
-            lambda ms=tick_ms, k=keys: hops.measure(reference, LIMIT_SLOPE, k, ms)  # type: ignore[misc]
-            for tick_ms in ticks_ms
+            partial(hops.measure, TIERS[0], LIMIT_SLOPE, keys, tick_ms)
             for keys in hops.KEYS
+            for tick_ms in ticks_ms
         ],
         "bumps": [
-            lambda t=tier, n=name, s=square: bumps.measure(t, n, s, bearings)  # type: ignore[misc]
+            partial(bumps.measure, tier, name, square, bearings)
             for name in bumps.SURFACES
             for tier in TIERS
             for square in squares

@@ -1,6 +1,7 @@
 """Single figures against their closed forms: each is one run, told by the tick and without ticks."""
 
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -17,6 +18,7 @@ BURN_SECONDS = 2.048
 START_SPEED = 5.0
 """Along the key when the fading burn begins, m/s: beyond a fifth of the fade-out speed."""
 DUTY_TICKS = 250
+MODELS = ("article", "engine")
 
 
 @dataclass(frozen=True)
@@ -25,11 +27,11 @@ class Figure:
 
     name: str
     unit: str
-    #: Without ticks; None where there is nothing to compare.
-    smooth: float | None
-    #: By ticks, in either model; None where there is no closed form.
-    article: float | None
-    engine: float | None
+    #: Without ticks.
+    smooth: float
+    #: By ticks, in either model.
+    article: float
+    engine: float
     measure: Callable[[Tier], float]
 
     def row(self, tiers: tuple[Tier, ...]) -> dict[str, Any]:
@@ -70,8 +72,10 @@ def _fall(dt: float) -> Figure:
     def measure(tier: Tier) -> float:
         return float(_last(play(tier, level(), fields, {}, ticks))["position"][0, 2]) - 200.0
 
-    ways = [forms.way(model, 30.0, -forms.GRAVITY, dt, ticks) for model in ("article", "engine")]
-    return Figure(f"height after {ticks * dt:g} s of flight, from 30 m/s up", "m", ways[1], *ways, measure)
+    article, engine = (forms.way(model, 30.0, -forms.GRAVITY, dt, ticks) for model in MODELS)
+    return Figure(
+        f"height after {ticks * dt:g} s of flight, from 30 m/s up", "m", engine, article, engine, measure
+    )
 
 
 def _jump(armor: str, tick_ms: int) -> Figure:
@@ -84,24 +88,23 @@ def _jump(armor: str, tick_ms: int) -> Figure:
         )
         return _highest(states)
 
-    apexes = [forms.apex(model, speed, dt) for model in ("article", "engine")]
+    article, engine = (forms.apex(model, speed, dt) for model in MODELS)
     smooth = speed**2 / (2.0 * forms.GRAVITY)
-    return Figure(f"apex of a jump, {armor}, ticks of {tick_ms} ms", "m", smooth, *apexes, measure)
+    return Figure(f"apex of a jump, {armor}, ticks of {tick_ms} ms", "m", smooth, article, engine, measure)
 
 
 def _burn(armor: str, pack: bool, dt: float) -> list[Figure]:
     kind = forms.ARMORS[armor]
     smooth, ticks = forms.smooth_burn(kind, pack), forms.burn_ticks(kind, pack, dt)
-    article, engine = (forms.burn(model, kind, pack, dt) for model in ("article", "engine"))
+    article, engine = (forms.burn(model, kind, pack, dt) for model in MODELS)
     name = f"full burn, {armor}{', pack' if pack else ''}"
     # The key is held up to the apex: a tank that has cut out does not come back to 5 before it.
     fall = int(article.speed / (forms.GRAVITY * dt)) + 2
 
     def states(tier: Tier) -> list[State]:
         fields = _resting(energy=kind.energy)
-        more = {"armor": armor, "energy_pack": pack}
-        sim_states = list(play(tier, level(), fields, {"jet": True}, ticks + 2, **more))
-        return sim_states
+        keys = {"jet": True}
+        return list(play(tier, level(), fields, keys, ticks + 2, armor=armor, energy_pack=pack))
 
     def burned(tier: Tier) -> float:
         return float(sum(state["jetting"][0] for state in states(tier)[1:]))
@@ -124,17 +127,18 @@ def _burn(armor: str, pack: bool, dt: float) -> list[Figure]:
 def _fading(dt: float) -> list[Figure]:
     light, ticks = forms.ARMORS["light"], round(BURN_SECONDS / dt)
     smooth = forms.fading(light, START_SPEED, 0.0, ticks * dt)
-    by_ticks = [forms.fading_ticks(model, light, START_SPEED, dt, ticks) for model in ("article", "engine")]
+    article, engine = (forms.fading_ticks(model, light, START_SPEED, dt, ticks) for model in MODELS)
     fields = _resting(position=[0.0, 0.0, 200.0], velocity=[0.0, START_SPEED, 0.0])
 
     def measure(tier: Tier, name: str) -> float:
         return float(_last(play(tier, level(), fields, {"jet": True, "forward": 1}, ticks))[name][0, 1])
 
     name = f"jets ahead for {ticks * dt:g} s, from {START_SPEED:g} m/s"
-    speeds, ways = zip(*by_ticks, strict=True)
     return [
-        Figure(f"{name}: speed", "m/s", smooth.speed, *speeds, partial(measure, name="velocity")),
-        Figure(f"{name}: way", "m", smooth.way, *ways, partial(measure, name="position")),
+        Figure(f"{name}: {what}", unit, wanted, article[k], engine[k], partial(measure, name=field))
+        for k, (what, unit, wanted, field) in enumerate(
+            [("speed", "m/s", smooth.speed, "velocity"), ("way", "m", smooth.way, "position")]
+        )
     ]
 
 
@@ -183,10 +187,10 @@ def _refill(dt: float) -> Figure:
     return Figure("ticks from empty to full, light", "", smooth, ticks, ticks, measure)
 
 
-def _last(states: Any) -> State:
-    *_, last = states
-    return last  # type: ignore[no-any-return]
+def _last(states: Iterator[State]) -> State:
+    last: State = deque(states, maxlen=1)[0]
+    return last
 
 
-def _highest(states: Any) -> float:
+def _highest(states: Iterator[State]) -> float:
     return float(max(state["position"][0, 2] for state in states))

@@ -55,7 +55,9 @@ def way(model: str, speed: float, acceleration: float, dt: float, ticks: int) ->
 
 
 def apex(model: str, speed: float, dt: float) -> float:
-    """The highest of the places after each tick of a throw straight up, m: `speed` before gravity's first tick.
+    """The highest of the places after each tick of a throw straight up, m.
+
+    `speed` is the one before gravity's first tick.
 
     At most v^2/2g - v dt/2 + g dt^2/8 in `article` and v^2/2g in `engine`, and at most g dt^2/8 less.
 
@@ -194,11 +196,16 @@ def slide_and_land(
 
     From `height` m above the plane, at `forward` m/s level and downhill and `down` m/s downwards. The contact
     takes what is across the plane; from then on friction, level and 40 m/s^2, brakes by 40 cos.
+
+    Raises:
+        ValueError: he is still in the air at the end.
     """
     sin, cos = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
     along, across = forward * cos + down * sin, forward * sin - down * cos
     fall = GRAVITY * cos
     flight = (across + math.sqrt(across**2 + 2.0 * fall * height * cos)) / fall
+    if flight > seconds:
+        raise ValueError(f"seconds: expected at least the {flight:.3f} s of the fall, got {seconds}")
     slid = seconds - flight
     landed = along + GRAVITY * sin * flight
     brake = GRAVITY * sin - GROUND_LIGHT * cos

@@ -10,7 +10,7 @@ from discjump.theory.lab import TICK_MS, Floats, State, Tier, exact32, incline, 
 
 SLOPES = (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0)
 """Degrees."""
-KEYS = {"forward": {"jump": True, "forward": 1}, "none": {"jump": True}}
+KEYS: dict[str, dict[str, int]] = {"forward": {"jump": 1, "forward": 1}, "none": {"jump": 1}}
 """Held in every tick: jump, with the downhill key or without any."""
 SPEED = 40.0
 """At the start, m/s along the plane: far above the walk speed, from which on the key would pull."""
@@ -25,9 +25,11 @@ def measure(
     """Period and acceleration of all whole hops within `SECONDS`, beside the law's.
 
     Returns:
-        `period` and `acceleration`: means over the starts; `low`, `high`: of the acceleration, over the starts.
-        `law`: the same by section 10. `hop_error`: what a hop gains along the plane beyond 20 sin T and the
-        hop's own loss, the largest of all starts, m/s: 0 but for rounding if that account of a hop is complete.
+        `period`, `acceleration`: means over the starts.
+        `low`, `high`: ends of the acceleration over the starts.
+        `law`: period and acceleration by section 10.
+        `hop_error`: what a hop gains along the plane beyond 20 sin T and its own loss, the largest of all
+        starts, m/s: 0 but for rounding if that account of a hop is complete.
     """
     forward = keys == "forward"
     dt = tick_ms / 1000.0
@@ -48,7 +50,7 @@ def measure(
     touched, along = _series(states, cos, sin)
     periods, gains, errors = [], [], []
     for player in range(starts):
-        # The engine's sphere still overlaps the plane in the tick that jumps off: a contact is where it begins.
+        # The engine's sphere still overlaps the plane in the tick that jumps off: a contact begins once.
         ticks = np.flatnonzero(touched[1:, player] & ~touched[:-1, player]) + 1
         first, last = ticks[1], ticks[-1]
         hops, seconds = len(ticks) - 2, (last - first) * dt

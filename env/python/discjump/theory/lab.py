@@ -41,8 +41,27 @@ class Tier:
         return "engine" if self.fidelity == "engine" else "article"
 
 
-TIERS = tuple(Tier(fidelity) for fidelity in ("reference", "authentic", "swept", "fast", "engine"))
-"""All but `anyway`, which is `authentic` with other contacts, and not to be played."""
+TIERS = (
+    Tier("reference"),
+    Tier("authentic"),
+    Tier("swept"),
+    Tier("fast"),
+    Tier("engine", "float64"),
+    Tier("engine"),
+)
+"""All but `anyway`, which is `authentic` with other contacts and not to be played; both of `engine`, whose
+movement has no other float64."""
+
+
+def twin(tier: Tier) -> Tier | None:
+    """The same movement in float64; None for one that is.
+
+    >>> twin(Tier("authentic")), twin(Tier("fast")).name, twin(Tier("reference"))
+    (Tier(fidelity='reference', precision=None), 'fast f64', None)
+    """
+    if tier.double:
+        return None
+    return Tier("reference") if tier.fidelity == "authentic" else Tier(tier.fidelity, "float64")
 
 
 def level(height: float = 0.0) -> Terrain:
@@ -115,7 +134,9 @@ def after(
 
 def make(tier: Tier, terrain: Terrain, num_players: int, **more: Any) -> Simulator:
     """A simulator of a tier, on one thread."""
-    return Simulator(terrain, num_players, fidelity=tier.fidelity, threads=1, **more)
+    return Simulator(
+        terrain, num_players, fidelity=tier.fidelity, precision=tier.precision, threads=1, **more
+    )
 
 
 def exact32(values: Any) -> Floats:

@@ -1,5 +1,6 @@
 """The Markdown of a record: everything in it comes from the JSON beside it."""
 
+from math import radians, sin
 from typing import Any
 
 Record = dict[str, Any]
@@ -16,7 +17,7 @@ def render(record: Record) -> str:
         "",
         f"{machine['processor']}, Python {machine['python']}, {described}. "
         "[README](README.md) says what the tables mean.",
-        *section("Order of convergence", convergence(record["convergence"])),
+        *section("Order of convergence: error of the place, m", convergence(record["convergence"])),
         *section("Single figures: closed form by ticks, and each tier's distance from it", figures(record)),
         *section("Explosions: largest difference from section 6, m/s", blasts(record["blasts"])),
         *section("Skiing on planes: acceleration along the slope, m/s²", hops(record["hops"])),
@@ -42,14 +43,14 @@ def convergence(rows: list[Record]) -> list[str]:
     """Error of the place: at some lengths of the tick, its order, and what of it is float32's."""
     made = []
     for row in rows:
-        place, velocity = row["place"], row["velocity"]
+        place = row["place"]
         at = dict(zip(row["ticks_ms"], place["median"], strict=True))
         rounding = place["rounding"] and dict(zip(row["ticks_ms"], place["rounding"], strict=True))
-        cells = [f"{at[ms]:.1e}" for ms in (1, 8, 32, 64)]
-        cells += [order(place["order"]), order(velocity["order"])]
+        cells = [f"{at[ms]:.2g}" for ms in (1, 8, 32, 64)]
+        cells += [order(place["order"]), row["theory"]]
         cells += [f"{rounding[ms]:.0e}" if rounding else "-" for ms in (1, 32)]
         made.append([row["case"], f"`{row['tier']}`", *cells])
-    head = ["motion", "tier", "1 ms", "8 ms", "32 ms", "64 ms", "order", "of the velocity"]
+    head = ["motion", "tier", "1 ms", "8 ms", "32 ms", "64 ms", "order", "by theory"]
     return table([*head, "float32 at 1 ms", "at 32 ms"], made)
 
 
@@ -127,8 +128,6 @@ def hops(rows: list[Record]) -> list[str]:
 
 def share(row: Record) -> str:
     """How far the law is off, in per cent of gravity's share."""
-    from math import radians, sin
-
     off = 100.0 * (row["acceleration"] - row["law"]["acceleration"]) / (20.0 * sin(radians(row["slope"])))
     return f"{off:+.1f}"
 
@@ -154,9 +153,7 @@ def bumps(rows: list[Record]) -> list[str]:
         cells = [milli(by[size]["mean"]) for size in sizes]
         largest = by[sizes[0]]
         hung = " / ".join(f"{by[size]['hung']}" for size in sizes)
-        lines.append(
-            [surface, f"`{tier}`", milli(largest["theory"]), *cells, milli(largest["worst"]), hung]
-        )
+        lines.append([surface, f"`{tier}`", milli(largest["theory"]), *cells, milli(largest["worst"]), hung])
     head = ["surface", "tier", f"theory, {sizes[0]:g} m", *(f"{size:g} m" for size in sizes)]
     return table([*head, f"worst, {sizes[0]:g} m", f"hung, of {rows[0]['slides']}"], lines)
 
