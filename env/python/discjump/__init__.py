@@ -11,7 +11,7 @@
     theory      the simulator against closed forms
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, sb3 -> envs -> terrains, simulator, explosions -> _native.
+Arrows point down only: cli -> accuracy, theory, sb3 -> envs -> terrains, simulator, explosions -> _native.
 """
 
 from importlib.metadata import version

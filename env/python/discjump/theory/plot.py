@@ -184,7 +184,7 @@ def slopes(axes: "Axes", rows: list[Record]) -> None:
         [1000.0 * r["theory"] for r in theory],
         "--",
         color=THEORY,
-        label="theory, valley, edges straight across",
+        label="theory, straight across",
     )
     axes.set(xlabel="side of a square, m (terrain: 8)", ylabel="speed lost, mm/s per metre", xlim=(0.0, 9.5))
     axes.legend(frameon=False)
