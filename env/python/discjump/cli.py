@@ -12,6 +12,7 @@ from discjump.accuracy.command import accuracy
 from discjump.bench.command import bench
 from discjump.falloff_command import falloff
 from discjump.terrain_command import terrain
+from discjump.theory.command import theory
 
 GROUP = "discjump.commands"
 
@@ -60,6 +61,7 @@ main.add_command(accuracy)
 main.add_command(bench)
 main.add_command(falloff)
 main.add_command(terrain)
+main.add_command(theory)
 
 
 def _entries() -> dict[str, EntryPoint]:
