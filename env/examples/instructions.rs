@@ -61,6 +61,7 @@ fn ticks(calls: usize) -> String {
         weapon: "disc",
         ammo: None,
         fidelity: "authentic",
+        precision: None,
         physics: Physics::default(),
         tick_ms: 32,
         threads: Some(1),

@@ -36,7 +36,7 @@ pub fn state_fields(fields: &[discjump_core::player::Field]) -> Vec<(&'static st
 impl Simulator {
     #[new]
     #[pyo3(signature = (terrain, num_players, players_per_world, scene, armor, energy_pack, weapon, ammo, fidelity,
-        physics, tick_ms, threads, lanes))]
+        precision, physics, tick_ms, threads, lanes))]
     #[expect(clippy::too_many_arguments, reason = "the package's constructor names them")]
     fn new(
         terrain: &Terrain,
@@ -48,6 +48,7 @@ impl Simulator {
         weapon: &str,
         ammo: Option<i32>,
         fidelity: &str,
+        precision: Option<&str>,
         physics: PhysicsArgument,
         tick_ms: u32,
         threads: Option<usize>,
@@ -64,6 +65,7 @@ impl Simulator {
             weapon,
             ammo,
             fidelity,
+            precision,
             physics: physics.switches()?,
             tick_ms,
             threads,
@@ -82,6 +84,12 @@ impl Simulator {
     #[getter]
     fn lanes(&self) -> usize {
         self.bodies.lanes()
+    }
+
+    /// "float32" or "float64".
+    #[getter]
+    fn precision(&self) -> &'static str {
+        self.bodies.precision()
     }
 
     /// The scene's name.

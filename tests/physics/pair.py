@@ -1,4 +1,4 @@
-"""A `discjump.Simulator` and the plain Python model, played side by side and compared after every tick."""
+"""A float64 `discjump.Simulator` and the plain Python model, side by side, compared after every tick."""
 
 from typing import Any
 
@@ -12,6 +12,8 @@ from .blast import explode
 from .disc import Launcher
 from .ground import Ground, Vec
 from .world import World
+
+MODEL_OF = {"reference": "sliced", "swept": "swept", "anyway": "anyway", "engine": "engine"}
 
 #: m and m/s: what section 12 expects of a correct float64 implementation.
 TOLERANCE = 1e-6
@@ -60,6 +62,7 @@ class Pair:
         hysteresis: bool = True,
         ski_bug: bool = False,
         scene: str = "sandbox",
+        fidelity: str = "reference",
         launcher: Launcher | None = None,
         **start: Any,
     ) -> None:
@@ -82,7 +85,8 @@ class Pair:
             **weapon,
             armor=armor,
             energy_pack=energy_pack,
-            fidelity="reference",
+            fidelity=fidelity,
+            precision="float64",
             physics=discjump.Physics(
                 ski_bug=ski_bug, hysteresis=hysteresis, **(armed if scene != "sandbox" else {})
             ),
@@ -97,7 +101,8 @@ class Pair:
             state[name] = value
         self.simulator.set_state(state)
         self.players = [player_of(row) for row in state]
-        self.worlds = [World(player, self.ground, self.rules, launcher) for player in self.players]
+        model = MODEL_OF[fidelity]
+        self.worlds = [World(player, self.ground, self.rules, launcher, model) for player in self.players]
         self.launcher = launcher
         #: Where discs burst in the last tick, by shooter, and how many did so far.
         self.last_bursts: list[list[Vec]] = [[] for _ in self.players]

@@ -21,6 +21,12 @@ fn simulators() {
     refused(build(|s| s.threads = Some(257)), "threads", "257");
     refused(build(|s| s.scene = "race"), "scene", "\"race\"");
     refused(build(|s| s.fidelity = "exact"), "fidelity", "\"exact\"");
+    refused(build(|s| s.precision = Some("double")), "precision", "\"double\"");
+    refused(
+        build(|s| (s.fidelity, s.precision) = ("reference", Some("float32"))),
+        "precision",
+        "\"authentic\" in float64",
+    );
     refused(build(|s| s.armor = "Light"), "armor", "\"Light\"");
     refused(build(|s| s.tick_ms = 0), "tick_ms", "0");
     refused(build(|s| s.tick_ms = 1001), "tick_ms", "1001");

@@ -84,6 +84,7 @@ pub fn setup<'a>(terrain: &'a Heightfield, fidelity: &'a str) -> SimulatorSetup<
         weapon: "disc",
         ammo: None,
         fidelity,
+        precision: None,
         physics: Physics::default(),
         tick_ms: 32,
         threads: Some(1),

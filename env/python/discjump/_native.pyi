@@ -78,6 +78,7 @@ class Simulator:
         weapon: str,
         ammo: int | None,
         fidelity: str,
+        precision: str | None,
         physics: Physics,
         tick_ms: int,
         threads: int | None,
@@ -87,6 +88,8 @@ class Simulator:
     def num_players(self) -> int: ...
     @property
     def lanes(self) -> int: ...
+    @property
+    def precision(self) -> str: ...
     @property
     def scene(self) -> str: ...
     @property

@@ -50,7 +50,8 @@ ARMORS = ("light", "medium", "heavy")
 FIDELITIES = ("reference", "authentic", "swept", "fast", "engine")
 #: Those of a `Simulator`: also the literal reading that tunnels, to be measured and not to be played.
 SIMULATOR_FIDELITIES = (*FIDELITIES, "anyway")
-
+#: Arithmetics of a `Simulator`. `reference` is `authentic` in float64 and has no other.
+PRECISIONS = ("float32", "float64")
 
 _CHOICES = {
     "knockback": ("tribes", "basic", "linear_boosted"),
@@ -125,6 +126,7 @@ class Simulator:
         weapon: str = "disc",
         ammo: int | None = None,
         lanes: int | None = None,
+        precision: str | None = None,
     ) -> None:
         """Make a simulator.
 
@@ -135,8 +137,8 @@ class Simulator:
                 terrain's solids as well); `SCENES` lists what each models.
             armor: "light", "medium" or "heavy".
             energy_pack: whether they wear one: 3 energy/s more.
-            fidelity: "reference" (float64), "authentic", "swept", "fast" or "engine" (float32); see
-                core/docs/tiers.md. "anyway" is there to be measured only: it tunnels.
+            fidelity: "reference" (float64), "authentic", "swept", "fast" or "engine" (float32 by themselves);
+                see core/docs/tiers.md. "anyway" is there to be measured only: it tunnels.
             physics: switches of the movement model.
             tick_ms: tick length, 1 to 1000 ms; the game's is 32.
             threads: 1 to 256; None for one per core. The bits do not depend on it.
@@ -147,8 +149,11 @@ class Simulator:
             ammo: shots of a fresh player; None for the weapon's own number, 15.
             lanes: most players side by side: 1, 8, 16 or 32, as far as the processor has them; None: the
                 environment variable `DISCJUMP_LANES` says, else the processor. The bits do not depend on it.
-                Only "authentic", "swept" and "fast" have lanes, and only where every player is alone in his
-                world.
+                Only "authentic", "swept" and "fast" in float32 have lanes, and only where every player is
+                alone in his world.
+            precision: "float32" or "float64"; None for the tier's own. Any tier can be had in float64, which
+                tells the error of its movement from that of its digits. "reference" is "authentic" in float64
+                and refuses "float32".
 
         Raises:
             ValueError: an argument out of range or unknown, with what was expected.
@@ -169,6 +174,7 @@ class Simulator:
             _check.choice("weapon", weapon, WEAPONS),
             None if ammo is None else _check.integer("ammo", ammo, 0, 1_000_000),
             _check.choice("fidelity", fidelity, SIMULATOR_FIDELITIES),
+            None if precision is None else _check.choice("precision", precision, PRECISIONS),
             Physics() if physics is None else physics,
             _check.integer("tick_ms", tick_ms, 1, 1000),
             None if threads is None else _check.integer("threads", threads, 1, 256),
@@ -184,6 +190,11 @@ class Simulator:
     def lanes(self) -> int:
         """How many players are stepped side by side."""
         return self._native.lanes
+
+    @property
+    def precision(self) -> str:
+        """The arithmetic: "float32" or "float64"."""
+        return self._native.precision
 
     @property
     def scene(self) -> Scene:
@@ -202,7 +213,7 @@ class Simulator:
         position (3 x f8, m), velocity (3, m/s), yaw and pitch (rad), energy, damage, jetting, touched,
         crawled, friction, jump_normal (3), jump_age (i4, ms; ticks in `engine`), bump_limits (i4, ticks that
         ended at the bump limit), cooldown (i4, 56 after the tick of a disc's shot; 1 and 0 can fire), ammo
-        (i4). Numbers are f8 in `reference`, else f4; fields of what the scene does not model are absent.
+        (i4). Numbers are f8 in float64, else f4; fields of what the scene does not model are absent.
         """
         return self._native.state_dtype
 

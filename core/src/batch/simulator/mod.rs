@@ -1,5 +1,6 @@
 //! A batch of players and nothing else: state in, ticks, state out.
 
+mod kernels;
 mod setup;
 mod shots;
 mod state;
@@ -22,7 +23,7 @@ use crate::float_environment::DefaultFloats;
 use crate::input::Input;
 use crate::movement::Movement;
 use crate::player::{Field, packed_bytes};
-use crate::real::{Real, Work};
+use crate::real::{Real, Scalar, Work};
 use crate::rules::Rules;
 use crate::scene::Scene;
 use crate::solids::Solids;
@@ -48,6 +49,8 @@ pub trait Bodies: Send + Sync {
     fn player_bytes(&self) -> usize;
     /// How many players are stepped side by side: 1, 8, 16 or 32. No bit depends on it.
     fn lanes(&self) -> usize;
+    /// "float32" or "float64".
+    fn precision(&self) -> &'static str;
     /// The scene's name.
     fn scene(&self) -> &'static str;
     /// All players' states, packed, one after the other.
@@ -196,6 +199,10 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
 
     fn lanes(&self) -> usize {
         R::LANES
+    }
+
+    fn precision(&self) -> &'static str {
+        if R::Scalar::DOUBLE { "float64" } else { "float32" }
     }
 
     fn scene(&self) -> &'static str {

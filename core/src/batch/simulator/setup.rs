@@ -2,19 +2,18 @@
 
 use super::super::pool::resolve_threads;
 use super::super::stage::Body;
+use super::kernels::REFERENCE;
 use super::{Bodies, Simulator};
 use crate::armor::Armor;
 use crate::arms::{Arms, Arsenal, WEAPONS, Weapon};
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
-use crate::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
+use crate::movement::Movement;
 use crate::player::Player;
-#[cfg(target_arch = "x86_64")]
-use crate::real::lanes::{F32x8, F32x16, Two};
-use crate::real::lanes::{Width, lane_width};
+use crate::real::lanes::lane_width;
 use crate::real::{Int, Real, Scalar, V3};
 use crate::rules::{Physics, Rules, named};
-use crate::scene::{DiscJump, Group, Mission, Sandbox, Scene, Ski, scenes};
+use crate::scene::{Group, Scene};
 use crate::solids::Solids;
 use crate::terrain::{Heightfield, Maps};
 use glam::{DVec3, IVec2};
@@ -53,6 +52,9 @@ pub struct SimulatorSetup<'a> {
     pub ammo: Option<i32>,
     /// "reference", "authentic", "swept", "fast", "engine", or "anyway".
     pub fidelity: &'a str,
+    /// "float32" or "float64"; the tier's own where absent: float64 in "reference", which has no other, float32
+    /// elsewhere. "reference" is "authentic" in float64.
+    pub precision: Option<&'a str>,
     /// Switches of the movement model.
     pub physics: Physics,
     /// Tick length, ms.
@@ -61,8 +63,8 @@ pub struct SimulatorSetup<'a> {
     pub threads: Option<usize>,
     /// Most players stepped side by side: 1, 8, 16, or 32 (two registers of 16). Where absent the environment
     /// variable `DISCJUMP_LANES` says, else processor and number of players: as many as gain time. No bit
-    /// of any result depends on it. Only "authentic", "swept" and "fast" have lanes, and only where every
-    /// player is alone in his world; only "authentic" in the ski scene has 32, the others take 16 then.
+    /// of any result depends on it. Only "authentic", "swept" and "fast" in float32 have lanes, and only where
+    /// every player is alone in his world; only "authentic" in the ski scene has 32, the others take 16 then.
     /// [`Bodies::lanes`] says what is in use.
     pub lanes: Option<usize>,
 }
@@ -95,62 +97,6 @@ pub(in super::super) fn check_tick(tick_ms: u32) -> Result<(), InputError> {
 }
 
 impl SimulatorSetup<'_> {
-    /// Builds the simulator: every player fresh, at the map's centre, on the ground; where several
-    /// share a world, in a row eastwards, 4 m apart.
-    ///
-    /// # Errors
-    /// Names the argument that is out of range or unknown, with what was expected.
-    pub fn build(&self) -> Result<Box<dyn Bodies>, InputError> {
-        match self.scene {
-            #[cfg(target_arch = "x86_64")]
-            "ski" if self.fidelity == "authentic" && self.width()? == Width::ThirtyTwo => {
-                self.kernel::<Ski, Sliced, Two<F32x16>>()
-            }
-            "ski" => self.tier::<Ski>(),
-            "sandbox" => self.tier::<Sandbox>(),
-            "disc_jump" => self.tier::<DiscJump>(),
-            "mission" => self.tier::<Mission>(),
-            other => {
-                let names: Vec<_> = scenes().iter().map(|scene| format!("{:?}", scene.name)).collect();
-                refuse!("scene: expected one of {}, got {other:?}", names.join(", "))
-            }
-        }
-    }
-
-    fn tier<S: Scene>(&self) -> Result<Box<dyn Bodies>, InputError> {
-        match self.fidelity {
-            "reference" => self.kernel::<S, Sliced, f64>(),
-            "authentic" => self.side_by_side::<S, Sliced>(),
-            "swept" => self.side_by_side::<S, Swept>(),
-            "fast" => self.side_by_side::<S, Fast>(),
-            "engine" => self.kernel::<S, Engine, f32>(),
-            "anyway" => self.kernel::<S, Anyway, f32>(),
-            other => refuse!(
-                "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\", \"engine\" or \"anyway\", \
-                 got {other:?}"
-            ),
-        }
-    }
-
-    /// How many players a tier that has lanes steps side by side.
-    fn width(&self) -> Result<Width, InputError> {
-        if self.players_per_world > 1 {
-            return Ok(Width::One);
-        }
-        lane_width(self.lanes, self.players)
-    }
-
-    /// The kernel of a tier that has lanes.
-    fn side_by_side<S: Scene, M: Movement>(&self) -> Result<Box<dyn Bodies>, InputError> {
-        match self.width()? {
-            Width::One => self.kernel::<S, M, f32>(),
-            #[cfg(target_arch = "x86_64")]
-            Width::Eight => self.kernel::<S, M, F32x8>(),
-            #[cfg(target_arch = "x86_64")]
-            Width::Sixteen | Width::ThirtyTwo => self.kernel::<S, M, F32x16>(),
-        }
-    }
-
     fn check(&self) -> Result<(), InputError> {
         if !(1..=MAX_PLAYERS).contains(&self.players) {
             refuse!("num_players: expected 1 to {MAX_PLAYERS}, got {}", self.players);
@@ -171,7 +117,7 @@ impl SimulatorSetup<'_> {
         check_tick(self.tick_ms)
     }
 
-    fn kernel<S: Scene, M: Movement, R: Real>(&self) -> Result<Box<dyn Bodies>, InputError> {
+    pub(super) fn kernel<S: Scene, M: Movement, R: Real>(&self) -> Result<Box<dyn Bodies>, InputError> {
         self.check()?;
         let armor = find_armor(self.armor)?;
         let weapon = find_weapon(self.weapon)?;
@@ -188,8 +134,8 @@ impl SimulatorSetup<'_> {
             let far = solids.farthest(maps.centre().extend(0.0));
             if far > FARTHEST_SOLID_F32 {
                 refuse!(
-                    "terrain.solids: in a float32 tier expected within {FARTHEST_SOLID_F32} m of the map's centre and of \
-                     height 0 along each axis, got {far:.1} m; fidelity \"reference\" takes them"
+                    "terrain.solids: in float32 expected within {FARTHEST_SOLID_F32} m of the map's centre and of height 0 \
+                     along each axis, got {far:.1} m; fidelity \"reference\" and precision \"float64\" take them"
                 );
             }
         }
@@ -209,6 +155,10 @@ impl SimulatorSetup<'_> {
         }
         if let Some(solids) = &solids {
             layout += &format!(", solids {:032x}", solids.digest());
+        }
+        // A tier's own precision is not told: the layouts of snapshots that never had a choice stay theirs.
+        if R::Scalar::DOUBLE && self.fidelity != REFERENCE {
+            layout += ", precision float64";
         }
         let fresh = (0..self.players).map(|i| {
             let player = fresh::<S, R::Scalar>(&maps, &rules, i % self.players_per_world);

@@ -1,0 +1,1 @@
+"""`discjump tradeoff`."""
