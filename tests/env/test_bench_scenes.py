@@ -7,8 +7,9 @@ import numpy as np
 from click.testing import CliRunner
 
 import discjump
+from discjump.bench import instructions
 from discjump.cli import main
-from discjump.simulator import FIDELITIES
+from discjump.simulator import SIMULATOR_FIDELITIES
 
 
 def test_every_scene_and_tier_is_listed_and_timed(tmp_path: Path) -> None:
@@ -17,8 +18,15 @@ def test_every_scene_and_tier_is_listed_and_timed(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.output
     rows = json.loads(out.read_text())["rows"]
     timed = {(row["scene"], row["fidelity"]) for row in rows if row["case"] == "scene"}
-    assert timed == {(scene, fidelity) for scene in discjump.SCENES for fidelity in FIDELITIES}
+    assert timed == {(scene, fidelity) for scene in discjump.SCENES for fidelity in SIMULATOR_FIDELITIES}
     assert all(row["ns_per_player_tick"] > 0 for row in rows)
+    for row in rows:
+        wide = row["fidelity"] in ("authentic", "swept", "fast") and row["case"] != "float64"
+        lanes = ["1", "8"] if wide else ["1"]
+        assert list(row["instructions"]) == (lanes if instructions.available() else [])
+        assert all(10 < taken < 1e5 for taken in row["instructions"].values())
+    double = [row["fidelity"] for row in rows if row["case"] == "float64"]
+    assert double == list(SIMULATOR_FIDELITIES)
     counts = [row["solids"] for row in rows if row["case"].endswith("far from them")]
     assert counts == [10, 1000]
     for scene in discjump.SCENES.values():

@@ -29,7 +29,9 @@ QUICK = Effort(3, 0.01, quick=True)
     "--figures", "asked", is_flag=True, help="All figures that are asked for, beside what is asked."
 )
 @click.option("--training", is_flag=True, help="With --figures: the environment's share of PPO too.")
-@click.option("--scenes", "by_scene", is_flag=True, help="What scenes and tiers cost, without a task.")
+@click.option(
+    "--scenes", "by_scene", is_flag=True, help="What scenes and tiers model, store and cost, without a task."
+)
 @click.option("--peers", "beside", is_flag=True, help="gymnasium's CartPole and EnvPool in the same run.")
 @click.option(
     "--picture",
@@ -79,6 +81,8 @@ def bench(
     quartiles over the repeats; the JSON has every repeat.
 
     --figures, --scenes, --peers and --picture choose what is measured instead, and can be combined.
+
+    --scenes also counts instructions where valgrind is installed: they do not depend on what else runs.
 
     --peers compares what differs: CartPole is a handful of multiplications with 4 observations, HalfCheetah
     a rigid-body simulation with 17 and 5 ticks a step, ours skis over terrain with 37 and, in the ratios, 1

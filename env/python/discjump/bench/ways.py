@@ -56,6 +56,9 @@ class Players:
     lanes: int | None = None
     scene: str = "ski"
     fidelity: str = "authentic"
+    precision: str | None = None
+    tick_ms: int = 32
+    armor: str = "light"
     ticks: int = 4
     square: tuple[tuple[float, float], float] = WHOLE
     solids: int | None = 0
@@ -80,6 +83,9 @@ class Players:
                 self.count,
                 scene=self.scene,
                 fidelity=self.fidelity,
+                precision=self.precision,
+                tick_ms=self.tick_ms,
+                armor=self.armor,
                 threads=self.threads,
                 lanes=self.lanes,
             )
@@ -159,6 +165,8 @@ class Vector:
     frame_skip: int = 1
     threads: int = 2
     dtype: str = "int64"
+    fidelity: str = "authentic"
+    tick_ms: int = 32
     calls: ClassVar[int | None] = None
 
     @property
@@ -169,7 +177,12 @@ class Vector:
     def make(self) -> Ready:
         """The environments, reset."""
         envs = gymnasium.make_vec(
-            ENV_ID, num_envs=self.num_envs, frame_skip=self.frame_skip, threads=self.threads
+            ENV_ID,
+            num_envs=self.num_envs,
+            frame_skip=self.frame_skip,
+            threads=self.threads,
+            fidelity=self.fidelity,
+            tick_ms=self.tick_ms,
         )
         observations, _ = envs.reset(seed=0)
         actions = random_actions(self.num_envs, np.dtype(self.dtype))

@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from discjump_training import intervals, model
+from discjump_training import intervals
 from discjump_training.courses import HELD_OUT
 from discjump_training.errors import TrainingError
 from discjump_training.evaluate import Judged, judge
+from discjump_training.files import write_atomically
 from discjump_training.intervals import Estimate
 from discjump_training.recipe import Recipe
 
@@ -122,7 +123,7 @@ def judged(run: Path, episodes: int, threads: int | None) -> dict[str, Any]:
         "home": _played(at_home),
         "task": _played(in_task),
     }
-    model.write_atomically(kept, (json.dumps(made) + "\n").encode())
+    write_atomically(kept, (json.dumps(made) + "\n").encode())
     return made
 
 
