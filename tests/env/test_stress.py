@@ -1,4 +1,4 @@
-"""`discjump stress`: that its checks see what is wrong, what it writes, what it refuses, and the quick form itself."""
+"""`discjump stress`: its checks see what is wrong; what it writes and refuses; and the quick form itself."""
 
 import json
 from collections.abc import Callable
@@ -12,7 +12,18 @@ from click.testing import CliRunner
 
 import discjump
 from discjump import cli
-from discjump.stress import blasts, checks, command, endurance, extremes, grounds, matrix, play, repeats, report
+from discjump.stress import (
+    blasts,
+    checks,
+    command,
+    endurance,
+    extremes,
+    grounds,
+    matrix,
+    play,
+    repeats,
+    report,
+)
 from discjump.stress.cases import PRECISIONS, SURFACES, TIERS, Column, Setting, columns
 from discjump.stress.checks import Finding, judge
 from discjump.stress.expected import EXPECTATIONS, REASONS
@@ -36,7 +47,7 @@ def record(extreme: str = "grid lines", column: Column = PLAIN, number: int = 0)
     return play.play(terrain, start, column, case.setting)
 
 
-# ---------------------------------------------------------------------------------------------- the whole of it
+# ------------------------------------------------------------------------------------ the whole of it
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +122,7 @@ def test_committed_results_are_whole(name):
         assert sum(part.get("episodes", 0) for part in figures["parts"].values()) >= 1_000_000
 
 
-# ---------------------------------------------------------------------------------------------- checks that can fail
+# ------------------------------------------------------------------------------------ checks that can fail
 
 
 def tampered(found: Record, change: Callable[[Any, Any], None]) -> set[str]:
@@ -217,7 +228,7 @@ def test_feet_in_the_ground_are_seen():
 
 
 def test_a_way_through_a_needle_is_seen():
-    """A player who is moved to the other side of a needle, without a contact, above the ground at both ends."""
+    """A player who is moved to the other side of a needle, above the ground at both ends."""
     found = record("spikes")
     states = found.states.copy()
     at = found.start.position.copy()
@@ -301,7 +312,7 @@ def test_a_refusal_that_is_none_is_seen(monkeypatch):
     assert "step turn=nan: accepted" in wrong
 
 
-# ---------------------------------------------------------------------------------------------- expectations
+# ------------------------------------------------------------------------------------ expectations
 
 
 def cell(column: Column, extreme: str, *found: Finding, strict: bool = True) -> str:
@@ -333,7 +344,7 @@ def test_every_expectation_has_a_reason_and_names_extremes_that_there_are():
         assert set(expectation.certain) <= names
 
 
-# ---------------------------------------------------------------------------------------------- own grounds
+# ------------------------------------------------------------------------------------ own grounds
 
 
 def test_on_ones_own_ground_and_scene(tmp_path):
@@ -341,7 +352,16 @@ def test_on_ones_own_ground_and_scene(tmp_path):
     heights = np.random.default_rng(3).uniform(0.0, 12.0, (20, 30))
     np.save(tmp_path / "heights.npy", heights)
     result = run(
-        *("--terrain", tmp_path / "heights.npy", "--square-size", 5, "--edge", "void", "--scene", "disc_jump"),
+        *(
+            "--terrain",
+            tmp_path / "heights.npy",
+            "--square-size",
+            5,
+            "--edge",
+            "void",
+            "--scene",
+            "disc_jump",
+        ),
         *("--tiers", "authentic", "--tiers", "anyway", "--precisions", "float32", "--surfaces", "triangles"),
         *("--quick", "--out", tmp_path),
     )
@@ -375,7 +395,7 @@ def test_what_it_cannot_play_it_refuses(arguments, named, monkeypatch):
     assert "Traceback" not in result.output
 
 
-# ---------------------------------------------------------------------------------------------- the long form
+# ------------------------------------------------------------------------------------ the long form
 
 
 def test_the_long_form_goes_on_where_it_was_stopped(tmp_path, monkeypatch):

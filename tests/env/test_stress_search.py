@@ -1,4 +1,4 @@
-"""Random search over terrain, states and keys, which shrinks what it finds: the checks are those of `discjump stress`."""
+"""Random search over terrain, states and keys, with shrinking, by the checks of `discjump stress`."""
 
 from typing import Any
 
@@ -49,16 +49,14 @@ def terrains(draw: Any) -> discjump.Terrain:
     if edge == "tile":
         heights[-1], heights[:, -1] = heights[0], heights[:, 0]
         heights[-1, -1] = heights[0, 0]
-    return discjump.Terrain.from_heights(
-        heights, draw(st.sampled_from([8.0, 1.0, 0.25, 100.0])), edge=edge
-    )
+    return discjump.Terrain.from_heights(heights, draw(st.sampled_from([8.0, 1.0, 0.25, 100.0])), edge=edge)
 
 
 @st.composite
 def starts(draw: Any, terrain: discjump.Terrain, column: Column, setting: Setting) -> Start:
     """A few players on or above the ground, and up to twelve ticks of keys."""
     size = np.array(terrain.size)
-    spot = st.floats(-0.3, 1.3, width=32)
+    spot = st.floats(-0.25, 1.25, width=32)
     xy = np.array([[draw(spot), draw(spot)] for _ in range(PLAYERS)]) * size + terrain.origin
     above = np.array([draw(st.one_of(st.just(0.0), st.floats(0.0, 50.0))) for _ in range(PLAYERS)])
     # Who is faster would only cost time.

@@ -7,7 +7,7 @@ use discjump_core::player::Player;
 use discjump_core::real::{Scalar, V3};
 use discjump_core::rules::{Physics, Rules};
 use discjump_core::scene::{Has, Sandbox};
-use discjump_core::terrain::{Edge, Heightfield, Maps};
+use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind};
 use discjump_core::tick::tick;
 
 type Body<T> = Player<Sandbox, T>;
@@ -20,6 +20,7 @@ pub struct Case {
     /// Side of a square, m.
     pub square: f64,
     pub edge: Edge,
+    pub surface: SurfaceKind,
     /// Heights, m, of as many vertices as there are, repeated where they are fewer.
     pub heights: Vec<f64>,
     /// Index into the armors.
@@ -55,7 +56,8 @@ impl Case {
             f64::from(self.heights[(j * cols + i) % self.heights.len()] as f32)
         };
         let heights = (0..rows * cols).map(|k| at(k % cols, k / cols)).collect();
-        Heightfield::new(heights, rows, cols, self.square, [0.0, 0.0], self.edge).expect("a possible terrain")
+        let made = Heightfield::new(heights, rows, cols, self.square, [0.0, 0.0], self.edge);
+        made.expect("a possible terrain").with_surface(self.surface)
     }
 
     fn physics(&self) -> Physics {
@@ -110,8 +112,9 @@ impl Case {
         p.yaw = t(self.yaw);
         (p.touched, p.friction) = (self.touched, t(self.friction));
         p.energy = Has(t(self.energy) * rules.max_energy);
-        let Has(contact) = &mut p.contact;
+        let mut contact = p.contact();
         contact.age = self.jump_age;
+        p.contact = Has(contact);
         p
     }
 

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Keys};
 use arbitrary::{Result, Unstructured};
-use discjump_core::terrain::Edge;
+use discjump_core::terrain::{Edge, SurfaceKind};
 
 /// Scales of heights and speeds: from what squares to nothing to what a state may hold.
 pub const HEIGHTS: [f64; 8] = [0.0, 1e-6, 1e-3, 0.1, 0.5, 2.0, 10.0, 78.0];
@@ -66,6 +66,7 @@ fn spell(u: &mut Unstructured<'_>) -> Result<Case> {
         cols,
         square,
         edge,
+        surface: if bit(7) { SurfaceKind::Bilinear } else { SurfaceKind::Triangles },
         heights,
         armor: usize::from(more >> 1) % 3,
         pack: bit(0),

@@ -10,7 +10,7 @@ mod common;
 use case::{Case, Keys};
 use common::widths;
 use decode::{HEIGHTS, LONGEST_WAY, SPEEDS, SQUARES, TICKS_MS, decode};
-use discjump_core::terrain::Edge;
+use discjump_core::terrain::{Edge, SurfaceKind};
 use proptest::prelude::*;
 use proptest::sample::select;
 use std::path::Path;
@@ -47,11 +47,14 @@ fn keys() -> impl Strategy<Value = Vec<Keys>> {
     proptest::collection::vec((-1..2i8, -1..2i8, any::<bool>(), any::<bool>(), turn), 1..30)
 }
 
-fn ground() -> impl Strategy<Value = (usize, usize, f64, Edge, Vec<f64>)> {
+type Ground = (usize, usize, f64, Edge, SurfaceKind, Vec<f64>);
+
+fn ground() -> impl Strategy<Value = Ground> {
+    let surface = select(vec![SurfaceKind::Triangles, SurfaceKind::Bilinear]);
     let edge = select(vec![Edge::Tile, Edge::Tile, Edge::Clamp, Edge::Void]);
     let heights = (select(HEIGHTS.to_vec()), proptest::collection::vec(-127.0..127.0f64, 36))
         .prop_map(|(scale, drawn)| drawn.into_iter().map(|h| h * scale).collect());
-    (2..7usize, 2..7usize, select(SQUARES.to_vec()), edge, heights)
+    (2..7usize, 2..7usize, select(SQUARES.to_vec()), edge, surface, heights)
 }
 
 fn cases() -> impl Strategy<Value = Case> {
@@ -68,7 +71,8 @@ fn cases() -> impl Strategy<Value = Case> {
                 cols: ground.1,
                 square: ground.2,
                 edge: ground.3,
-                heights: ground.4,
+                surface: ground.4,
+                heights: ground.5,
                 armor: uniform.0,
                 pack: uniform.1,
                 tick_ms: uniform.2,

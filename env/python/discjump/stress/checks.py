@@ -183,14 +183,19 @@ def tank(ticks: Ticks) -> Finding | None:
 
 def ground(ticks: Ticks) -> Finding | None:
     """Feet at the ends of ticks no deeper in a face than rounding takes them, m."""
-    record = ticks.record
-    if record.start.buried:
+    if ticks.record.start.buried:
         return None
     deep = ticks.depth - ticks.rounding - allowed_depth(ticks, ticks.after["position"])
-    # Who was beyond a rim with nothing behind it may come back below the map.
-    players = record.states.shape[1]
-    outside = np.logical_or.accumulate(np.isnan(deep).reshape(-1, players), axis=0).ravel()
-    return ticks.finding("ground", np.where(outside, -1.0, deep))
+    return ticks.finding("ground", np.where(outside(ticks), -1.0, deep))
+
+
+def outside(ticks: Ticks) -> Bools:
+    """Who was beyond a rim with nothing behind it, and so may have come back under the map, (ticks * n,)."""
+    states = ticks.record.states
+    began = ticks.floor.depth(states[0]["position"])
+    beyond = np.isnan(np.concatenate([began, ticks.depth])).reshape(states.shape)
+    been: Bools = np.logical_or.accumulate(beyond, axis=0)[1:].ravel()
+    return been
 
 
 def allowed_depth(ticks: Ticks, position: Floats) -> Floats | float:
@@ -206,7 +211,7 @@ def allowed_depth(ticks: Ticks, position: Floats) -> Floats | float:
 def path(ticks: Ticks) -> Finding | None:
     """No face anywhere on the way of a tick that touched nothing, m."""
     start, end = ticks.before["position"], ticks.after["position"]
-    asked = ~ticks.move.touched & np.isfinite(end).all(axis=1)
+    asked = ~ticks.move.touched & np.isfinite(end).all(axis=1) & ~outside(ticks)
     if ticks.record.start.buried or not asked.any():
         return None
     slack = ticks.rounding + allowed_depth(ticks, end)

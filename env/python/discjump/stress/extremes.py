@@ -209,10 +209,13 @@ def far_away(
     return Start(position, begun.velocity, begun.inputs, begun.fields)
 
 
-def still(rng: Generator, terrain: Terrain, players: int, ticks: int) -> Start:
-    """Nobody presses anything."""
-    begun = anywhere(rng, terrain, players, ticks)
-    return Start(begun.position, begun.velocity, no_keys(ticks, players), begun.fields)
+def beyond_counting(rng: Generator, terrain: Terrain, players: int, ticks: int) -> Start:
+    """So far and so fast that the count of tiles comes to its end, 2^30, high above the ground."""
+    signs = np.resize([1.0, -1.0], players)
+    xy = np.column_stack([9.99e8 * signs, rng.uniform(-100.0, 100.0, players)])
+    position = np.column_stack([xy, np.full(players, 9e4)])
+    velocity = np.column_stack([1e6 * signs, np.zeros(players), np.full(players, 50.0)])
+    return Start(position, velocity, no_keys(ticks, players))
 
 
 def built_in(form: Form) -> list[Case]:
@@ -273,6 +276,11 @@ def far_cases(form: Form, hills: Callable[..., Terrain]) -> list[Case]:
     for away in form.pick((1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9), (1e3, 1e6, 1e9)):
         tiles = max(1, int(away / 512.0) - 1)
         cases.append(made("far, tile", f"{away:g} m", hills, anywhere, far=(tiles, -tiles)))
+    lost = Form(4, 90, form.full, form.seed)
+    counters = case(
+        lost, "far, tile", "2^30 tiles", partial(grounds.plain, edge="tile", square=0.25), beyond_counting
+    )
+    cases.append(replace(counters, setting=Setting(tick_ms=1000)))
     for edge in ("clamp", "void"):
         for away in form.pick((1e3, 1e5, 1e7, 9e8), (1e5, 9e8)):
             begin = partial(far_away, away=away, seed_of=anywhere)

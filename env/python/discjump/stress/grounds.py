@@ -76,9 +76,9 @@ def cliffs(height: float) -> Terrain:
     return made(np.broadcast_to(profile, (33, 33)), edge="tile")
 
 
-def plain(height: float = 0.0, edge: str = "clamp") -> Terrain:
-    """Level ground."""
-    return made(np.full((9, 9), height), 64.0, edge)
+def plain(height: float = 0.0, edge: str = "clamp", square: float = 64.0) -> Terrain:
+    """Level ground of eight squares either way."""
+    return made(np.full((9, 9), height), square, edge)
 
 
 def one_square(edge: str) -> Terrain:
