@@ -196,7 +196,9 @@ def slopes(axes: "Axes", rows: list[Record]) -> None:
     )
     axes.set(xlabel="side of a square, m (terrain: 8)", ylabel="speed lost, mm/s per metre", xlim=(0.0, 9.5))
     axes.legend(frameon=False)
-    axes.set_title("Ghost bumps: what a smooth slope costs for\nbeing cut into triangles, or into patches", loc="left")
+    axes.set_title(
+        "Ghost bumps: what a smooth slope costs for\nbeing cut into triangles, or into patches", loc="left"
+    )
 
 
 def account(axes: "Axes", ledger: Record) -> None:
