@@ -1,5 +1,6 @@
 """`discjump tradeoff`: what it writes, that it goes on where it stopped, and what it refuses."""
 
+import importlib
 import json
 import re
 import shutil
@@ -16,7 +17,7 @@ from discjump_training.tradeoff.command import tradeoff
 from discjump_training.tradeoff.grid import QUICK, TRUTH, Config, Plan
 from discjump_training.tradeoff.section import Panel
 from discjump_training.tradeoff.sections import SECTIONS
-from discjump_training.tradeoff.store import Missing, Store
+from discjump_training.tradeoff.store import Missing, Store, code
 
 TINY = replace(
     QUICK,
@@ -219,6 +220,23 @@ def test_a_damaged_piece_is_made_again(tmp_path):
     with pytest.raises(ValueError, match="JSON"):
         store.piece("apex", {"of": 5}, lambda: float("nan"))
     assert list(tmp_path.rglob("*.*")) == [path]
+
+
+def test_code_is_what_is_in_the_files(tmp_path, monkeypatch):
+    package = tmp_path / "measuring"
+    (package / "deep").mkdir(parents=True)
+    for name in ("__init__.py", "deep/one.py", "tuned.toml", "notes.txt"):
+        (package / name).write_text("1")
+    monkeypatch.syspath_prepend(tmp_path)
+    module = importlib.import_module("measuring")
+    before = code(module)
+    (package / "notes.txt").write_text("2")
+    assert code(module) == before
+    seen = {before, code(str(package / "tuned.toml"))}
+    for name in ("deep/one.py", "tuned.toml"):
+        (package / name).write_text("2")
+        seen.add(code(module))
+    assert len(seen) == 4
 
 
 def test_ctrl_c_says_how_to_go_on(tmp_path, monkeypatch):

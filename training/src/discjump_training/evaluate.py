@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from discjump.envs.options import SkiOptions
+from discjump.terrains import SURFACES
 from discjump_training import baselines, intervals, model
 from discjump_training.courses import COURSES, Course
 from discjump_training.episodes import FAILURE_SECONDS, Episodes, Stage
@@ -32,7 +33,7 @@ FIDELITY = SkiOptions.fidelity
 #: with its own, and says so.
 FRAME_SKIP = SkiOptions.frame_skip
 #: Options that make up the physics of the task, whatever a model was trained in.
-PHYSICS: dict[str, Any] = {"fidelity": FIDELITY, "tick_ms": SkiOptions.tick_ms}
+PHYSICS: dict[str, Any] = {"fidelity": FIDELITY, "tick_ms": SkiOptions.tick_ms, "surface": SURFACES[0]}
 #: What two policies' episodes must have in common to be compared pair by pair.
 SHARED = ("start_distance", "terrain", "goals")
 
@@ -101,8 +102,8 @@ def in_task(trained: Mapping[str, Any]) -> dict[str, Any]:
     """Options of the task for a model that was trained with `trained`: what it observes stays its own, the
     physics is the task's, and the time between its decisions stays as near to its own as whole ticks allow.
 
-    >>> in_task({"fidelity": "fast", "tick_ms": 64, "frame_skip": 2, "landing": False})
-    {'fidelity': 'authentic', 'tick_ms': 32, 'frame_skip': 4, 'landing': False}
+    >>> in_task({"fidelity": "fast", "tick_ms": 64, "surface": "bilinear", "frame_skip": 2, "landing": False})
+    {'fidelity': 'authentic', 'tick_ms': 32, 'surface': 'triangles', 'frame_skip': 4, 'landing': False}
     """
     period = trained.get("tick_ms", SkiOptions.tick_ms) * trained.get("frame_skip", FRAME_SKIP)
     return {**trained, **PHYSICS, "frame_skip": max(1, round(period / PHYSICS["tick_ms"]))}

@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Any
 
+from discjump import envs
 from discjump_training import baselines, courses, episodes, intervals
 from discjump_training.courses import HELD_OUT
 from discjump_training.intervals import Estimate
@@ -32,7 +33,7 @@ class Outcomes:
             "course": HELD_OUT.name,
             "episodes": plan.episodes,
             "build": build(),
-            "code": code(baselines, episodes, courses, skiers),
+            "code": code(envs, baselines, episodes, courses, skiers),
         }
         rows = []
         for skier in SKIERS:
@@ -52,7 +53,7 @@ class Outcomes:
                     "frame_skip": frame_skip,
                     "against": TRUTH.keys,
                 }
-                identity["code"] = code(baselines, episodes, courses, skiers, intervals)
+                identity["code"] = code(envs, baselines, episodes, courses, skiers, intervals)
                 row = store.piece(self.name, identity, partial(compared, own, truth))
                 decision_ms = config.tick_ms * frame_skip
                 head = {"skier": skier, **config.keys, "frame_skip": frame_skip, "decision_ms": decision_ms}

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from discjump import envs
 from discjump._results import machine
 from discjump.bench import clock, ways
 from discjump.bench.clock import Case, Effort, Prepared, Unavailable, spread
@@ -38,7 +39,7 @@ class Speed:
             "effort": [plan.repeat_seconds, plan.quick],
             "machine": machine(),
             "build": build(),
-            "code": code(clock, ways),
+            "code": code(clock, ways, envs),
         }
         prepared: dict[Case, Prepared | Unavailable] = {}
 

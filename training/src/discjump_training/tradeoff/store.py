@@ -91,12 +91,13 @@ def build() -> dict[str, str]:
 
 
 def code(*sources: ModuleType | str) -> str:
-    """A digest of what makes a result: modules, all files of packages, or a `__file__`."""
+    """A digest of what makes a result: modules, all Python and TOML of packages, or a `__file__`."""
     files: set[Path] = set()
     for source in sources:
         path = Path(source if isinstance(source, str) else inspect.getfile(source))
-        files |= set(path.parent.rglob("*.py")) if path.name == "__init__.py" else {path}
-    return _digest(b"".join(path.read_bytes() for path in sorted(files)))
+        files |= set(path.parent.rglob("*.*")) if path.name == "__init__.py" else {path}
+    read = sorted(path for path in files if path.suffix in (".py", ".toml"))
+    return _digest(b"".join(path.read_bytes() for path in read))
 
 
 def _digest(content: bytes) -> str:
