@@ -44,7 +44,9 @@ def test_quick_form_measures_every_part_in_every_tier(quick):
         (armor, formula) for armor in ("light", "medium", "heavy") for formula in blasts.FORMULAS
     }
     assert {row["keys"] for row in made["hops"]} == set(hops.KEYS)
-    assert {row["surface"] for row in made["bumps"]} == set(bumps.SURFACES)
+    assert {(row["surface"], row["ground"]) for row in made["bumps"]} == {
+        (surface, ground) for surface in bumps.SURFACES for ground in bumps.GROUNDS
+    }
 
 
 def test_the_page_is_that_of_the_json(quick):
@@ -55,7 +57,7 @@ def test_the_page_is_that_of_the_json(quick):
     sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
     assert len(sections) == 7
     rows = [section.count("\n|") - 2 for section in sections]
-    pairs = [len({(row[a], row[b]) for row in made[part]}) for part, a, b in PARTS]
+    pairs = [len({tuple(row[key] for key in keys) for row in made[part]}) for part, *keys in PARTS]
     assert rows == [*pairs[:1], len(made["figures"]), *pairs[1:], len(made["ledger"]["rows"])]
     fall = made["figures"][0]
     assert f"| {fall['smooth']:g} | {fall['article']:g} | {fall['engine']:g} |" in sections[1]
@@ -66,7 +68,7 @@ PARTS = (
     ("blasts", "armor", "formula"),
     ("hops", "slope", "keys"),
     ("limit", "tick_ms", "keys"),
-    ("bumps", "surface", "tier"),
+    ("bumps", "surface", "ground", "tier"),
 )
 
 
@@ -109,6 +111,6 @@ def test_committed_results_are_the_commands():
             assert new[name] == pytest.approx(old[name], rel=1e-9)
     for old in [row for row in made["bumps"] if row["square"] == 8.0 and row["surface"] == "cone"]:
         tier = next(tier for tier in TIERS if tier.name == old["tier"])
-        new = bumps.measure(tier, "cone", 8.0)
+        new = bumps.measure(tier, "cone", 8.0, ground=old["ground"])
         assert new["hung"] == old["hung"]
         assert new["mean"] == pytest.approx(old["mean"], rel=1e-6)

@@ -156,13 +156,14 @@ def test_skiing_costs_nothing_as_the_tick_shrinks():
 # Ghost bumps.
 
 
+@pytest.mark.parametrize("ground", bumps.GROUNDS)
 @pytest.mark.parametrize("tier", TIERS, ids=by_name)
-def test_a_plane_has_no_bumps_at_any_angle(tier):
+def test_a_plane_has_no_bumps_at_any_angle(tier, ground):
     """Its triangles are one plane: what is left is the tick's own, the same for every cut."""
     plane = bumps.SURFACES["plane"]
     slides = np.array(
         [
-            bumps.slide(tier, plane, square, bearing).lost
+            bumps.slide(tier, plane, square, bearing, ground).lost
             for square in (8.0, 1.0)
             for bearing in bumps.BEARINGS
         ]
@@ -179,15 +180,16 @@ def test_a_plane_has_no_bumps_at_any_angle(tier):
 @pytest.mark.parametrize(
     "tier", [Tier(name) for name in ("reference", "authentic", "swept", "fast")], ids=by_name
 )
+@pytest.mark.parametrize("ground", bumps.GROUNDS)
 @pytest.mark.parametrize("square", [8.0, 4.0])
-def test_bumps_are_bounded_by_the_turning_of_the_ground(square, tier):
+def test_bumps_are_bounded_by_the_turning_of_the_ground(square, ground, tier):
     """A surface of curvature k turns by k h at an edge, and by k v dt in a tick, as at an edge of v dt
     metres. Who hovers from a slice made again may pass one edge in the air, and the next takes both turns at
     once: twice as much as one by one."""
     for name in ("valley", "crest"):
         surface = bumps.SURFACES[name]
         for bearing in (0.0, 13.0, 31.0, 45.0):
-            made = bumps.slide(tier, surface, square, bearing)
+            made = bumps.slide(tier, surface, square, bearing, ground)
             tick = made.theory / square * (30.0 * 0.032)
             assert made.hung == 0
             assert made.lost.max() <= 2.0 * (made.theory + tick)

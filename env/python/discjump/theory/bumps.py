@@ -1,4 +1,4 @@
-"""Ghost bumps: speed that a smooth slope loses by being cut into triangles.
+"""Ghost bumps: speed that a smooth slope costs for being cut into triangles, or into bilinear patches.
 
 What slides is a player whom nothing brakes but contacts: no keys, and after every tick he is made to forget
 that he touched the ground, so that ground friction never acts. On a smooth surface he would keep
@@ -24,6 +24,8 @@ from discjump.theory.lab import TICK_MS, Floats, State, Tier, exact32, make, sta
 
 SQUARES = (8.0, 4.0, 2.0, 1.0)
 """Sides of the squares, m."""
+GROUNDS = ("triangles", "bilinear")
+"""What a square is: two triangles, or a patch without an edge in it."""
 BEARINGS = (0.0, 7.0, 13.0, 19.0, 26.0, 31.0, 38.0, 45.0)
 """Of the way down, degrees from the grid's y axis."""
 RADIUS = 100.0
@@ -79,14 +81,14 @@ SURFACES = {
 """By name."""
 
 
-def cut(surface: Surface, square: float, bearing: float) -> Terrain:
+def cut(surface: Surface, square: float, bearing: float, ground: str = GROUNDS[0]) -> Terrain:
     """The surface sampled at the corners of squares of so many metres, its way down turned by `bearing`."""
     half = 128.0
     axis = square * np.arange(round(2.0 * half / square) + 1) - half
     x, y = np.meshgrid(axis, axis)
     angle = np.radians(bearing)
     u, w = np.sin(angle) * x + np.cos(angle) * y, np.cos(angle) * x - np.sin(angle) * y
-    return Terrain.from_heights(surface.height(u, w), square, (-half, -half), "clamp")
+    return Terrain.from_heights(surface.height(u, w), square, (-half, -half), "clamp").with_surface(ground)
 
 
 @dataclass(frozen=True)
@@ -101,9 +103,11 @@ class Slide:
     hung: int
 
 
-def slide(tier: Tier, surface: Surface, square: float, bearing: float, seed: int = 0) -> Slide:
+def slide(
+    tier: Tier, surface: Surface, square: float, bearing: float, ground: str = GROUNDS[0], seed: int = 0
+) -> Slide:
     """Slides of players who start beside each other."""
-    terrain = cut(surface, square, bearing)
+    terrain = cut(surface, square, bearing, ground)
     angle = np.radians(bearing)
     ahead = np.array([np.sin(angle), np.cos(angle)])
     aside = np.array([np.cos(angle), -np.sin(angle)])
@@ -146,17 +150,24 @@ def slide(tier: Tier, surface: Surface, square: float, bearing: float, seed: int
     return Slide(lost[~hung], float(np.mean(gone / (speeds * way[~hung]))), int(hung.sum()))
 
 
-def measure(tier: Tier, name: str, square: float, bearings: Sequence[float] = BEARINGS) -> dict[str, Any]:
+def measure(
+    tier: Tier,
+    name: str,
+    square: float,
+    bearings: Sequence[float] = BEARINGS,
+    ground: str = GROUNDS[0],
+) -> dict[str, Any]:
     """Slides down one surface in squares of one size, in every bearing.
 
     Returns:
         `lost`: mean by bearing, (m/s)/m, None where nobody got through without the bump limit; `mean` and
         `worst`: of all slides that did; `theory`: edges alone, straight across; `hung`: how many did not.
     """
-    made = [slide(tier, SURFACES[name], square, bearing) for bearing in bearings]
+    made = [slide(tier, SURFACES[name], square, bearing, ground) for bearing in bearings]
     through = np.concatenate([one.lost for one in made])
     return {
         "surface": name,
+        "ground": ground,
         "tier": tier.name,
         "square": square,
         "bearings": list(bearings),

@@ -85,8 +85,9 @@ def record(quick: bool) -> dict[str, Any]:
             for tick_ms in ticks_ms
         ],
         "bumps": [
-            partial(bumps.measure, tier, name, square, bearings)
+            partial(bumps.measure, tier, name, square, bearings, ground)
             for name in bumps.SURFACES
+            for ground in bumps.GROUNDS
             for tier in TIERS
             for square in squares
         ],

@@ -158,26 +158,34 @@ def pushes(axes: "Axes") -> None:
 
 def slopes(axes: "Axes", rows: list[Record]) -> None:
     """Speed lost by size of the squares."""
-    marks = {"plane": "s", "valley": "o", "crest": "^", "cone": "v"}
-    for surface, mark in marks.items():
-        for tier in ("authentic", "fast"):
+    shown = {
+        "authentic": ("triangles", "-"),
+        "fast": ("triangles", "-"),
+        "authentic, bilinear": ("bilinear", ":"),
+    }
+    for surface, mark in {"plane": "s", "valley": "o", "crest": "^", "cone": "v"}.items():
+        for label, (ground, style) in shown.items():
+            tier = label.partition(",")[0]
             of = sorted(
-                (r for r in rows if (r["surface"], r["tier"]) == (surface, tier)), key=lambda r: r["square"]
+                (r for r in rows if (r["surface"], r["ground"], r["tier"]) == (surface, ground, tier)),
+                key=lambda r: r["square"],
             )
             axes.plot(
                 [r["square"] for r in of],
                 [1000.0 * r["mean"] for r in of],
-                mark + "-",
+                mark + style,
                 color=COLOURS[tier],
+                markerfacecolor="none" if ground == "bilinear" else None,
                 linewidth=1,
-                label=tier if surface == "valley" else None,
+                label=label if surface == "valley" else None,
             )
-        last = of[-1]
-        axes.annotate(
-            surface, (last["square"], 1000.0 * last["mean"]), xytext=(6, -3), textcoords="offset points"
-        )
+            if label == "fast":
+                aside = {"cone": 1, "plane": -9}.get(surface, -3)
+                end = (of[-1]["square"], 1000.0 * of[-1]["mean"])
+                axes.annotate(surface, end, xytext=(7, aside), textcoords="offset points")
     theory = sorted(
-        (r for r in rows if (r["surface"], r["tier"]) == ("valley", "fast")), key=lambda r: r["square"]
+        (r for r in rows if (r["surface"], r["ground"], r["tier"]) == ("valley", "triangles", "fast")),
+        key=lambda r: r["square"],
     )
     axes.plot(
         [r["square"] for r in theory],
@@ -188,7 +196,9 @@ def slopes(axes: "Axes", rows: list[Record]) -> None:
     )
     axes.set(xlabel="side of a square, m (terrain: 8)", ylabel="speed lost, mm/s per metre", xlim=(0.0, 9.5))
     axes.legend(frameon=False)
-    axes.set_title("Ghost bumps: what a smooth slope costs for\nbeing cut into triangles", loc="left")
+    axes.set_title(
+        "Ghost bumps: what a smooth slope costs for\nbeing cut into triangles, or into patches", loc="left"
+    )
 
 
 def account(axes: "Axes", ledger: Record) -> None:

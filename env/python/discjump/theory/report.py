@@ -145,16 +145,17 @@ def limit(rows: list[Record]) -> list[str]:
 def bumps(rows: list[Record]) -> list[str]:
     """A line for each surface and tier, a column for each size of square."""
     sizes = sorted({row["square"] for row in rows}, reverse=True)
-    made: dict[tuple[str, str], dict[float, Record]] = {}
+    made: dict[tuple[str, str, str], dict[float, Record]] = {}
     for row in rows:
-        made.setdefault((row["surface"], row["tier"]), {})[row["square"]] = row
+        made.setdefault((row["surface"], row["ground"], row["tier"]), {})[row["square"]] = row
     lines = []
-    for (surface, tier), by in made.items():
+    for (surface, ground, tier), by in made.items():
         cells = [milli(by[size]["mean"]) for size in sizes]
         largest = by[sizes[0]]
         hung = " / ".join(f"{by[size]['hung']}" for size in sizes)
-        lines.append([surface, f"`{tier}`", milli(largest["theory"]), *cells, milli(largest["worst"]), hung])
-    head = ["surface", "tier", f"theory, {sizes[0]:g} m", *(f"{size:g} m" for size in sizes)]
+        cells = [milli(largest["theory"]), *cells, milli(largest["worst"]), hung]
+        lines.append([surface, ground, f"`{tier}`", *cells])
+    head = ["surface", "squares", "tier", f"theory, {sizes[0]:g} m", *(f"{size:g} m" for size in sizes)]
     return table([*head, f"worst, {sizes[0]:g} m", f"hung, of {rows[0]['slides']}"], lines)
 
 
