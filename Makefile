@@ -5,6 +5,7 @@ PYTHON ?= python3
 RUN ?= runs/ski
 TRAIN_ARGS ?=
 PYTEST_ARGS ?=
+FUZZ_SECONDS ?= 600
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -144,6 +145,21 @@ instructions: setup ## Instructions of a tick and of a step, held to the committ
 
 instructions-anew: setup ## The same, committed anew
 	$(PY) .ci/instructions.py --write
+
+.PHONY: stress stress-long fuzz
+stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress
+	nice -n 5 $(VENV)/bin/discjump stress --out core/docs/stress
+
+# Again after Ctrl-C it goes on where it was.
+stress-long: setup ## Ten million ticks in every tier and a million episodes, into core/docs/stress
+	nice -n 5 $(VENV)/bin/discjump stress --long --out core/docs/stress
+
+# cargo-fuzz wants a flag of the nightly toolchain, which the stable one takes from this variable. What is new is
+# kept in the corpus, which ordinary tests play.
+fuzz: ## Coverage-guided search for FUZZ_SECONDS (wants `cargo install cargo-fuzz`)
+	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz run ticks --sanitizer none -- \
+	  -max_len=120 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
+	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz cmin ticks --sanitizer none
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile

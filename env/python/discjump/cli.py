@@ -11,7 +11,9 @@ from discjump import __version__
 from discjump.accuracy.command import accuracy
 from discjump.bench.command import bench
 from discjump.falloff_command import falloff
+from discjump.stress.command import stress
 from discjump.terrain_command import terrain
+from discjump.theory.command import theory
 
 GROUP = "discjump.commands"
 
@@ -59,7 +61,9 @@ def main() -> None:
 main.add_command(accuracy)
 main.add_command(bench)
 main.add_command(falloff)
+main.add_command(stress)
 main.add_command(terrain)
+main.add_command(theory)
 
 
 def _entries() -> dict[str, EntryPoint]:

@@ -13,7 +13,9 @@
     outcomes      section: what a scripted skier notices
     skiers        plays episodes and compares them
     apex          section: how high a disc jump goes
-    transfer      trains in each physics, judges in the task
+    transfer      section: trained in each physics, judged in the task
+    training      section: how long a training takes in each physics
+    homes         where policies are trained, and their recipes
     section       what a section is, and what it gives to the picture
     store         finished pieces of work on disk: an interrupted run goes on
     grid          configurations, which of them make sense, and how much work is asked for

@@ -14,7 +14,7 @@ from discjump_training.cli import INTERRUPTED, clean_errors
 from discjump_training.tradeoff.grid import FRAME_SKIPS, QUICK, TICK_MS, TIERS, Plan
 
 OUT = Path("runs/tradeoff")
-SECTIONS = ("speed", "instructions", "errors", "outcomes", "apex")
+SECTIONS = ("speed", "instructions", "errors", "outcomes", "apex", "transfer", "training")
 
 
 class Several(click.ParamType[tuple[Any, ...]]):
@@ -68,6 +68,12 @@ class Several(click.ParamType[tuple[Any, ...]]):
     type=click.IntRange(3, 1000),
     help=f"Rounds in which every configuration is timed.  [default: {Plan.repeats}]",
 )
+@click.option(
+    "--seeds", type=click.IntRange(2, 100), help=f"Trainings in each physics.  [default: {Plan.seeds}]"
+)
+@click.option(
+    "--steps", type=click.IntRange(min=1), help=f"Decisions of a training.  [default: {Plan.steps:,}]"
+)
 @click.option("--quick", is_flag=True, help="A small grid in a minute or two: whether it runs.")
 @click.option("--anew", is_flag=True, help="Measure the sections again, whatever the folder has of them.")
 @click.option(
@@ -83,6 +89,8 @@ def tradeoff(sections: tuple[str, ...] | None, quick: bool, anew: bool, out: Pat
     speed: player-ticks and agent steps a second. instructions: of a player-tick (needs valgrind). errors:
     distance in m from the truth (`reference`, ticks of 32 ms, triangles) after the same keys, by situation.
     outcomes: what a scripted skier notices, in s, m/s and damage. apex: height of a disc jump, m.
+    transfer: policies trained in each physics and judged in the task (a minute and a half for each of 45
+    trainings, kept in OUT/runs). training: how long they take.
 
     Ctrl-C at any time: what is finished stays, and the same command goes on. What an earlier run left in the
     folder is shown together with the sections measured now, if it was made with the same options, versions
@@ -111,7 +119,7 @@ def _measure(plan: Plan, wanted: tuple[str, ...], anew: bool, out: Path, words: 
     record = {
         "command": shlex.join(words),
         "machine": machine(),
-        "versions": versions("discjump", "numpy", "scipy", "gymnasium"),
+        "versions": versions("discjump", "numpy", "scipy", "gymnasium", "stable-baselines3", "torch"),
         "plan": asdict(plan),
         "configs": [config.keys for config in plan.configs()],
         "sections": made,

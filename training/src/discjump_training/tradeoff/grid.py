@@ -95,6 +95,12 @@ class Plan:
     repeats: int = 9
     #: Length of one timing of agent steps, s.
     repeat_seconds: float = 0.1
+    #: Training seeds in each physics, and decisions of a training.
+    seeds: int = 5
+    steps: int = 4_000_000
+    #: Rounds in which every physics is trained in against the clock, and decisions of such a training.
+    training_repeats: int = 3
+    training_steps: int = 262_144
     #: Whether it runs, not how fast.
     quick: bool = False
 
@@ -126,6 +132,10 @@ QUICK = Plan(
     num_envs=64,
     repeats=3,
     repeat_seconds=0.005,
+    seeds=2,
+    steps=8_192,
+    training_repeats=1,
+    training_steps=8_192,
     quick=True,
 )
 """Everything on a small grid: whether it runs."""

@@ -6,8 +6,18 @@ from discjump_training.tradeoff.instructions import Instructions
 from discjump_training.tradeoff.outcomes import Outcomes
 from discjump_training.tradeoff.section import Made, Panel, Section
 from discjump_training.tradeoff.speed import Speed, speeds
+from discjump_training.tradeoff.training import Training
+from discjump_training.tradeoff.transfer import Transfer
 
-_ALL: tuple[Section, ...] = (Speed(), Instructions(), Errors(), Outcomes(), Apex())
+_ALL: tuple[Section, ...] = (
+    Speed(),
+    Instructions(),
+    Errors(),
+    Outcomes(),
+    Apex(),
+    Transfer(),
+    Training(),
+)
 SECTIONS: dict[str, Section] = {section.name: section for section in _ALL}
 """By name."""
 

@@ -1,225 +1,193 @@
-"""The transfer gap: what a policy that was trained in cheaper physics loses where it counts.
+"""Section: what a policy loses where it counts that was trained in other physics.
 
-The same recipe, the same number of decisions, several training seeds in each physics. Every policy is judged
-twice on the same episodes on terrain it never saw: at home, in the physics it was trained in, and in the
-task (`authentic`, ticks of 32 ms, cut triangles). Two differences follow:
+The same recipe, the same number of decisions, several training seeds in each physics. The last policy of
+every run (not the best, which was chosen by how it does at home) is judged twice on the same episodes on
+terrain it never saw: at home, in the physics it was trained in, and in the task. Two differences follow:
 
-- the *gap*, task minus home, the same policies: what home promised and the task does not keep;
-- the *cost*, in the task, minus the policies that were trained in the task: what decides where to train.
+- the *gap*, task minus home, of the same policies: what home promised and the task does not keep;
+- the *cost*, in the task, minus the policies that were trained there: what decides where to train.
 
-Intervals are 95% bootstrap intervals over training seeds and episodes, crossed.
+A policy decides as often in the task as at home.
 """
 
+import hashlib
 import json
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from discjump_training import intervals
+from discjump_training import courses, episodes, evaluate, intervals
 from discjump_training.courses import HELD_OUT
-from discjump_training.errors import TrainingError
 from discjump_training.evaluate import Judged, judge
-from discjump_training.files import write_atomically
 from discjump_training.intervals import Estimate
-from discjump_training.recipe import Recipe
+from discjump_training.tradeoff.grid import Config, Plan
+from discjump_training.tradeoff.homes import TASK, Home, homes, seconds, train
+from discjump_training.tradeoff.outcomes import at_most
+from discjump_training.tradeoff.section import Done, Made, Panel, Speeds, points
+from discjump_training.tradeoff.store import Missing, Store, build, code
 
-STEPS = 4_000_000
-"""Decisions of a training."""
-SEEDS = 5
-EPISODES = HELD_OUT.episodes
-JUDGED = "transfer.json"
-"""In the folder of a run: what it did at home and in the task."""
-
-
-@dataclass(frozen=True)
-class Home:
-    """The physics of a training."""
-
-    #: In tables and as a folder.
-    name: str
-    #: Fields of the recipe's section `environment` that differ from the recipe.
-    changes: dict[str, Any]
-
-    def recipe(self, steps: int, overrides: Iterable[str] = ()) -> Recipe:
-        """The ski recipe in this physics."""
-        changes = [f"environment.{key}={json.dumps(value)}" for key, value in self.changes.items()]
-        return Recipe.load("ski", (f"ppo.steps={steps}", *changes, *overrides))
+RUNS = "runs"
+"""Folder of all trainings; they outlive `--anew`."""
+FLOOR = 0.05
+"""Of the picture's error axis, s."""
 
 
-TASK = Home("authentic", {})
-HOMES = (
-    TASK,
-    Home("reference", {"fidelity": "reference"}),
-    Home("swept", {"fidelity": "swept"}),
-    Home("fast", {"fidelity": "fast"}),
-    Home("engine", {"fidelity": "engine"}),
-    Home("authentic, bilinear", {"surface": "bilinear"}),
-    Home("fast, bilinear", {"fidelity": "fast", "surface": "bilinear"}),
-    Home("authentic, 16 ms x 8", {"tick_ms": 16, "frame_skip": 8}),
-    Home("authentic, 64 ms x 2", {"tick_ms": 64, "frame_skip": 2}),
-    Home("fast, 64 ms x 2", {"fidelity": "fast", "tick_ms": 64, "frame_skip": 2}),
-    Home("authentic, frame_skip 2", {"frame_skip": 2}),
-    Home("authentic, frame_skip 8", {"frame_skip": 8}),
-)
-"""Where policies are trained: every tier; then, from the default, one change at a time, and the cheapest.
+class Transfer:
+    """The section."""
 
-Other ticks keep the 128 ms between two decisions. A policy decides as often in the task as at home.
-"""
+    name = "transfer"
+
+    def work(self, plan: Plan) -> int:
+        """Trainings."""
+        return plan.seeds * len(homes(plan))
+
+    def run(self, plan: Plan, store: Store, done: Done) -> Made:
+        """Train and judge what is not done yet, seed by seed over all homes."""
+        out = store.folder / RUNS
+        played: dict[Home, list[dict[str, Any]]] = {home: [] for home in homes(plan)}
+        for seed in range(plan.seeds):
+            for home, runs in played.items():
+                final = home.folder(out, seed) / "final.zip"
+                if store.frozen and not final.exists():
+                    raise Missing(f"{self.name}: {final} was not trained yet")
+                where = train(home, plan, out, seed)
+                identity = {
+                    "model": hashlib.blake2b(final.read_bytes(), digest_size=16).hexdigest(),
+                    "course": HELD_OUT.name,
+                    "episodes": plan.episodes,
+                    "build": build(),
+                    "code": code(courses, episodes, evaluate),
+                }
+                make = partial(judged, where, plan.episodes)
+                spent = json.loads((where / "run.json").read_text())
+                runs.append({"run": spent, **store.piece(self.name, identity, make)})
+                done(1)
+        return {
+            "course": HELD_OUT.name,
+            "episodes": plan.episodes,
+            "steps": plan.steps,
+            "seeds": plan.seeds,
+            "interval": f"{intervals.CONFIDENCE:.0%}, bootstrap over training seeds and episodes, crossed; "
+            "success: exact",
+            "rows": [row(home, runs, played[TASK]) for home, runs in played.items()],
+        }
+
+    def tables(self, made: Made) -> list[str]:
+        """A line for each home."""
+        lines = [
+            "## Transfer",
+            "",
+            f"PPO by the ski recipe, {made['steps']:,} decisions and {made['seeds']} training seeds in each "
+            f"physics, judged on {made['episodes']} episodes of {made['course']}; failures count as 60 s. "
+            f"Gap: the same policies in the task (`{TASK.name}`) minus at home. Cost: in the task, minus "
+            f"those that were trained there: above 0 is worse. In brackets {made['interval']}.",
+            "",
+            "| trained in | time at home, s | time in the task, s | gap, s | gap, success | cost, s "
+            "| cost, success | success in the task, % | failures | trained for, s |",
+            "|---" * 10 + "|",
+        ]
+        for one in made["rows"]:
+            of = {key: Estimate(**value) for key, value in one.items() if isinstance(value, dict)}
+            itself = one["home"] == TASK.name
+            cells = [
+                _cell(of["home_seconds"]),
+                _cell(of["task_seconds"]),
+                _cell(of["gap_seconds"], "+"),
+                _cell(of["gap_success"], "+", 100.0),
+                "" if itself else _cell(of["cost_seconds"], "+"),
+                "" if itself else _cell(of["cost_success"], "+", 100.0),
+                _cell(of["task_success"], "", 100.0),
+                f"{one['failures']} of {one['seeds'] * made['episodes']:,}",
+                f"{one['trained_seconds']:.0f}",
+            ]
+            lines.append(f"| {one['home']} | {' | '.join(cells)} |")
+        return [
+            *lines,
+            "",
+            "Trained for: median over the seeds of what each run's own clock said, on a machine that may "
+            "have been busy; the next table is timed in turns.",
+            "",
+        ]
+
+    def panels(self, made: Made, speeds: Speeds) -> list[Panel]:
+        """What it costs to train there, at most."""
+        rows = [one for one in made["rows"] if one["frame_skip"] == Config.of(one).frame_skip]
+        costs = {Config.of(one): max(0.0, one["cost_seconds"]["high"]) for one in rows}
+        return [
+            Panel(
+                "Policy trained there, judged in the task",
+                "agents, a decision each 128 ms",
+                "slower than one trained in the task by at most (95%)",
+                "s",
+                points(costs, speeds.agents),
+                FLOOR,
+            )
+        ]
 
 
-def folder(out: Path, home: Home, seed: int) -> Path:
-    """Of a run."""
-    return out / home.name.replace(",", "").replace(" ", "-") / f"seed-{seed}"
-
-
-def train(out: Path, home: Home, seed: int, steps: int, overrides: Iterable[str] = ()) -> Path:
-    """Train where it is not done yet, from the newest checkpoint if there is one; the folder of the run.
-
-    Raises:
-        TrainingError: the folder holds a run by another recipe.
-        KeyboardInterrupt: Ctrl-C; everything up to the update under way is kept.
-    """
-    from discjump_training import runs
-    from discjump_training.train import train as learn
-
-    where = folder(out, home, seed)
-    recipe = home.recipe(steps, overrides)
-    begun = runs.checkpoints(where)
-    if begun or (where / "final.zip").exists():
-        found = Recipe.load(where / "recipe.toml")
-        if found != recipe:
-            raise TrainingError(f"{where} holds a run by another recipe: choose another --out")
-    if not (where / "final.zip").exists():
-        result = learn(recipe, seed, where, resume=bool(begun), quiet=True)
-        if not result.finished:
-            raise KeyboardInterrupt
-    return where
-
-
-def judged(run: Path, episodes: int, threads: int | None) -> dict[str, Any]:
-    """What the last model of a run does at home and in the task; kept in the run's folder.
-
-    The last model, not the best: the best was chosen by how it does at home.
-    """
-    kept = run / JUDGED
-    if kept.exists():
-        made: dict[str, Any] = json.loads(kept.read_text())
-        if made["episodes"] == episodes:
-            return made
-    path = str(run / "final.zip")
-    at_home, in_task = (
-        judge(path, HELD_OUT, episodes, sampled=False, threads=threads, record=0, at_home=home)
-        for home in (True, False)
+def judged(run: Path, count: int) -> dict[str, Any]:
+    """What the last model of a run does at home and in the task, episode by episode."""
+    final = str(run / "final.zip")
+    home, task = (
+        judge(final, HELD_OUT, count, sampled=False, threads=None, record=0, at_home=at_home)
+        for at_home in (True, False)
     )
-    seconds = json.loads((run / "run.json").read_text())["seconds"]
-    made = {
-        "course": HELD_OUT.name,
-        "episodes": episodes,
-        "frame_skip": in_task.frame_skip,
-        "training_seconds": seconds,
-        "home": _played(at_home),
-        "task": _played(in_task),
-    }
-    write_atomically(kept, (json.dumps(made) + "\n").encode())
-    return made
+    return {"home": _played(home), "task": _played(task)}
 
 
-def _played(one: Judged) -> dict[str, list[Any]]:
+def _played(one: Judged) -> dict[str, Any]:
     return {
+        "frame_skip": one.frame_skip,
         "seconds": [round(value, 3) for value in one.episodes.seconds.tolist()],
         "success": one.episodes.success.tolist(),
         "mean_speed": [round(value, 4) for value in one.episodes.mean_speed.tolist()],
     }
 
 
-@dataclass(frozen=True)
-class Row:
-    """One home. Times are s, failures count as 60 s; shares are of 1."""
-
-    home: str
-    seeds: int
-    episodes: int
-    #: Mean time at home and in the task.
-    home_seconds: Estimate
-    task_seconds: Estimate
-    #: Task minus home.
-    gap_seconds: Estimate
-    gap_success: Estimate
-    #: In the task, minus the policies trained there.
-    cost_seconds: Estimate
-    cost_success: Estimate
-    task_success: Estimate
-    failures: int
-    #: Mean time in the task of each training seed.
-    by_seed: list[float]
-    #: Median over the seeds, s, as the trainings ran.
-    training_seconds: float
-    environment_share: float
-
-
-def row(home: Home, runs: Sequence[dict[str, Any]], task: Sequence[dict[str, Any]]) -> Row:
+def row(home: Home, runs: list[dict[str, Any]], task: list[dict[str, Any]]) -> dict[str, Any]:
     """Summary of the runs of one home, beside those that were trained in the task."""
 
-    def table(of: Sequence[dict[str, Any]], where: str, what: str) -> Any:
+    def table(of: list[dict[str, Any]], where: str, what: str) -> Any:
         return np.array([run[where][what] for run in of], dtype=np.float64)
 
-    success = table(runs, "task", "success")
+    at_home, in_task = (table(runs, where, "seconds") for where in ("home", "task"))
+    kept, success = (table(runs, where, "success") for where in ("home", "task"))
     cost_seconds = cost_success = Estimate(0.0, 0.0, 0.0)
     if home != TASK:
-        seconds = table(runs, "task", "seconds")
-        cost_seconds = intervals.over_seeds_difference(seconds, table(task, "task", "seconds"))
+        cost_seconds = intervals.over_seeds_difference(in_task, table(task, "task", "seconds"))
         cost_success = intervals.over_seeds_difference(success, table(task, "task", "success"))
-    spent = [run["training_seconds"] for run in runs]
-    training = [one["environment"] + one["policy"] + one["update"] for one in spent]
-    return Row(
-        home=home.name,
-        seeds=len(runs),
-        episodes=runs[0]["episodes"],
-        home_seconds=intervals.over_seeds(table(runs, "home", "seconds")),
-        task_seconds=intervals.over_seeds(table(runs, "task", "seconds")),
-        gap_seconds=intervals.over_seeds(table(runs, "task", "seconds") - table(runs, "home", "seconds")),
-        gap_success=intervals.over_seeds(success - table(runs, "home", "success")),
-        cost_seconds=cost_seconds,
-        cost_success=cost_success,
-        task_success=intervals.proportion(success.ravel() > 0.5),
-        failures=int((success < 0.5).sum()),
-        by_seed=[float(one) for one in table(runs, "task", "seconds").mean(axis=1)],
-        training_seconds=float(np.median(training)),
-        environment_share=float(np.median([one["environment"] for one in spent]) / np.median(training)),
-    )
+    estimates = {
+        "home_seconds": intervals.over_seeds(at_home),
+        "task_seconds": intervals.over_seeds(in_task),
+        "gap_seconds": intervals.over_seeds(in_task - at_home),
+        "gap_success": intervals.over_seeds(success - kept),
+        "cost_seconds": cost_seconds,
+        "cost_success": cost_success,
+        "task_success": intervals.proportion(success.ravel() > 0.5),
+    }
+    return {
+        "home": home.name,
+        **home.config.keys,
+        "frame_skip": home.frame_skip,
+        "task_frame_skip": runs[0]["task"]["frame_skip"],
+        "seeds": len(runs),
+        **{key: value.as_dict() for key, value in estimates.items()},
+        "failures": int((success < 0.5).sum()),
+        "seconds_by_seed": in_task.mean(axis=1).tolist(),
+        "trained_seconds": float(np.median([seconds(one["run"]) for one in runs])),
+        "environment_share": float(np.median([one["run"]["environment_share"] for one in runs])),
+        "largest_cost": at_most(cost_seconds.as_dict()),
+    }
 
 
-def measure(
-    out: Path,
-    homes: Sequence[Home],
-    seeds: int,
-    steps: int,
-    episodes: int,
-    *,
-    overrides: Iterable[str] = (),
-    threads: int | None = None,
-    done: Callable[[str], object] = lambda _: None,
-) -> list[Row]:
-    """Train and judge all homes, the task's own among them, seed by seed; what is done already is not redone.
+def _cell(of: Estimate, sign: str = "", scale: float = 1.0) -> str:
+    """A value with its interval; a scale of 100 makes percent of shares.
 
-    Args:
-        out: folder of all the runs.
-        homes: where to train; `TASK` is added if absent.
-        seeds: trainings in each, seeds 0 and up.
-        steps: decisions of a training.
-        episodes: of the held-out course.
-        overrides: further changes of the recipe, for all.
-        threads: of the simulator when judging.
-        done: is told what is done, after each training with its judgement.
+    >>> _cell(Estimate(18.634, 18.2, 19.0)), _cell(Estimate(-0.01, -0.02, 0.0), "+", 100.0)
+    ('18.63 [18.20, 19.00]', '-1.0 [-2.0, +0.0]')
     """
-    homes = [TASK, *(home for home in homes if home != TASK)]
-    made: dict[str, list[dict[str, Any]]] = {home.name: [] for home in homes}
-    for seed in range(seeds):
-        for home in homes:
-            run = train(out, home, seed, steps, overrides)
-            made[home.name].append(judged(run, episodes, threads))
-            done(f"{home.name}, seed {seed}")
-    return [row(home, made[home.name], made[TASK.name]) for home in homes]
+    digits = 2 if scale == 1.0 else 1
+    value, low, high = (f"{scale * end:{sign}.{digits}f}" for end in (of.value, of.low, of.high))
+    return f"{value} [{low}, {high}]"
