@@ -33,6 +33,8 @@ TINY = replace(
 )
 EXACT = ("errors", "outcomes", "apex")
 """Sections whose results are the same every time."""
+MEASURED = ("speed", "instructions", *EXACT)
+"""All that train nothing."""
 
 
 def run(*arguments):
@@ -41,17 +43,18 @@ def run(*arguments):
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """The folder and the JSON of a quick run."""
+    """The folder and the JSON of a quick run, trainings excepted."""
     out = tmp_path_factory.mktemp("tradeoff")
-    result = run("--quick", "--out", out)
+    result = run("--quick", "--sections", ",".join(MEASURED), "--out", out)
     assert result.exit_code == 0, result.output
     return out, json.loads((out / "tradeoff.json").read_text())
 
 
 def test_quick_form_measures_every_configuration(quick):
     out, figures = quick
-    assert figures["command"] == f"discjump tradeoff --quick --out {out}"
-    assert tuple(figures["sections"]) == NAMES == tuple(SECTIONS)
+    assert figures["command"] == f"discjump tradeoff --sections {','.join(MEASURED)} --quick --out {out}"
+    assert tuple(figures["sections"]) == MEASURED
+    assert NAMES == tuple(SECTIONS)
     configs = {tuple(config.values()) for config in figures["configs"]}
     assert len(configs) == len(QUICK.tiers) * len(QUICK.tick_ms) * len(QUICK.surfaces)
     for name in ("speed", "errors", "outcomes"):
@@ -143,7 +146,7 @@ def test_the_same_command_again_measures_nothing(quick, monkeypatch):
 
     for name in ("speed.clock.prepare", "paths.run", "outcomes.play", "apex.apexes"):
         monkeypatch.setattr(f"discjump_training.tradeoff.{name}", refuse)
-    assert run("--quick", "--out", out).exit_code == 0
+    assert run("--quick", "--sections", ",".join(MEASURED), "--out", out).exit_code == 0
     assert json.loads((out / "tradeoff.json").read_text()) == figures
 
 
@@ -281,8 +284,7 @@ def tupled(plan):
 
 def test_anew_measures_again_and_shows_the_rest(tmp_path):
     store = Store(tmp_path)
-    wanted = tuple(name for name in NAMES if name != "instructions")
-    made = record.measure(TINY, wanted, store)
+    made = record.measure(TINY, ("speed", *EXACT), store)
     again = record.measure(TINY, ("speed",), store, anew=True)
     assert all(again[name] == made[name] for name in EXACT)
     rates = [[row["rates"] for row in of["speed"]["rows"]] for of in (made, again)]
@@ -292,7 +294,7 @@ def test_anew_measures_again_and_shows_the_rest(tmp_path):
 def test_panels_have_both_speed_and_error(quick):
     sections = quick[1]["sections"]
     axis = speed.speeds(sections["speed"])
-    panels = [panel for name in SECTIONS for panel in SECTIONS[name].panels(sections[name], axis)]
+    panels = [panel for name in EXACT for panel in SECTIONS[name].panels(sections[name], axis)]
     assert len(panels) == 3
     for panel in panels:
         assert isinstance(panel, Panel)

@@ -75,7 +75,8 @@ def test_figures_are_numpys():
 
 @pytest.mark.parametrize("situation", ["ski", "blast", "bridge"])
 def test_the_reference_has_no_error_to_itself(situation):
-    made = paths.Paths(SMALL)
+    # Four on each ground: of those on the bridge not all stay on its deck.
+    made = paths.Paths(replace(SMALL, starts=16))
     for tick_ms, surface in itertools.product(TICK_MS, SURFACES):
         config = Config(TRUTH.tier, tick_ms, surface)
         rows = {row["error"]: row for row in paths.compared(made, situation, config)}
