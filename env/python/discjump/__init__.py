@@ -8,9 +8,10 @@
     envs        gymnasium environments; importing discjump registers their ids
     sb3         stable-baselines3 adapter (import discjump.sb3)
     accuracy    how far the fidelity tiers stray from `reference`
+    features    what leaving a feature of a scene out changes
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, sb3 -> envs -> terrains, simulator, explosions -> _native.
+Arrows point down only: cli -> accuracy, features, sb3 -> envs -> terrains, simulator, explosions -> _native.
 """
 
 from importlib.metadata import version
