@@ -5,6 +5,7 @@ PYTHON ?= python3
 RUN ?= runs/ski
 TRAIN_ARGS ?=
 PYTEST_ARGS ?=
+FUZZ_SECONDS ?= 600
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -147,6 +148,21 @@ instructions-anew: setup ## The same, committed anew
 
 features: setup ## That scenes pay nothing for what they leave out: against builds without it
 	$(PY) .ci/features.py
+
+.PHONY: stress stress-long fuzz
+stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress
+	nice -n 5 $(VENV)/bin/discjump stress --out core/docs/stress
+
+# Again after Ctrl-C it goes on where it was.
+stress-long: setup ## Ten million ticks in every tier and a million episodes, into core/docs/stress
+	nice -n 5 $(VENV)/bin/discjump stress --long --out core/docs/stress
+
+# cargo-fuzz wants a flag of the nightly toolchain, which the stable one takes from this variable. What is new is
+# kept in the corpus, which ordinary tests play.
+fuzz: ## Coverage-guided search for FUZZ_SECONDS (wants `cargo install cargo-fuzz`)
+	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz run ticks --sanitizer none -- \
+	  -max_len=120 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
+	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz cmin ticks --sanitizer none
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile

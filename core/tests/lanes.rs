@@ -10,7 +10,7 @@ use discjump_core::batch::{Bodies, RawInput, SimulatorSetup};
 use discjump_core::random::{Purpose, unit};
 use discjump_core::rules::{DiscFlight, Physics};
 use discjump_core::solids::{Solid, Solids};
-use discjump_core::terrain::{Edge, Heightfield};
+use discjump_core::terrain::{Edge, Heightfield, SurfaceKind};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -140,6 +140,29 @@ fn every_edge_weapon_and_switch() {
                 tick_ms: 16,
                 ..setup(&map, tier)
             };
+            agree(&s, 200);
+        }
+    }
+}
+
+/// Bilinear ground under every scene and tier, and at every edge.
+#[test]
+fn bilinear_ground() {
+    let map = rolling().with_surface(SurfaceKind::Bilinear);
+    let solids = blocks(&map);
+    for tier in TIERS {
+        for scene in SCENES {
+            let s = SimulatorSetup { players: 37, scene, solids: Some(&solids), ..setup(&map, tier) };
+            let (bursts, digest) = agree(&s, 200);
+            assert!(bursts > 20 || scene == "ski" || scene == "sandbox", "{bursts} bursts");
+            let (_, cut) = agree(&SimulatorSetup { terrain: &rolling(), ..s }, 20);
+            assert_ne!(digest, cut);
+        }
+    }
+    for edge in [Edge::Tile, Edge::Clamp, Edge::Void] {
+        let map = odd(edge).with_surface(SurfaceKind::Bilinear);
+        for (tier, weapon) in [("authentic", "disc"), ("swept", "grenade"), ("fast", "mortar")] {
+            let s = SimulatorSetup { players: 21, scene: "disc_jump", weapon, ..setup(&map, tier) };
             agree(&s, 200);
         }
     }

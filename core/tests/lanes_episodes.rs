@@ -12,23 +12,23 @@ use discjump_core::batch::{
 use discjump_core::random::{Purpose, bits};
 use discjump_core::task::{ACTION_BINS, ActionKind, Actions};
 use discjump_core::terrain::mission::Area;
-use discjump_core::terrain::{Edge, Heightfield, Maps};
+use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind};
 use std::sync::Arc;
 
 /// Two maps of hills with steep faces.
-fn maps(edge: Edge) -> Arc<Maps> {
+fn maps(edge: Edge, surface: SurfaceKind) -> Arc<Maps> {
     let wave = |i: usize| (core::f64::consts::TAU * 2.0 * (i % 32) as f64 / 32.0).sin();
     let field = |tall: f64| {
         let heights = (0..33 * 33).map(|k| tall * wave(k % 33) * wave(k / 33)).collect();
-        Heightfield::new(heights, 33, 33, 8.0, [-128.0, -128.0], edge).unwrap()
+        Heightfield::new(heights, 33, 33, 8.0, [-128.0, -128.0], edge).unwrap().with_surface(surface)
     };
     Arc::new(Maps::new(&[field(12.0), field(30.0)]).unwrap())
 }
 
 fn setup(count: usize, fidelity: &str, edge: Edge, autoreset: Autoreset) -> SkiEnvironments {
     let area = Area { min: [-100.0, -90.0], max: [110.0, 95.0] };
-    let mut setup =
-        SkiEnvironments { maps: maps(edge), areas: vec![area; 2], autoreset, ..ski(count, fidelity) };
+    let maps = maps(edge, SurfaceKind::Triangles);
+    let mut setup = SkiEnvironments { maps, areas: vec![area; 2], autoreset, ..ski(count, fidelity) };
     setup.task.time_limit = 70;
     setup
 }
@@ -143,6 +143,28 @@ fn every_width_plays_the_same_episodes() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn every_width_plays_the_same_episodes_on_bilinear_ground() {
+    for (fidelity, edge) in [("authentic", Edge::Tile), ("swept", Edge::Clamp), ("fast", Edge::Void)] {
+        let make = |lanes| {
+            let maps = maps(edge, SurfaceKind::Bilinear);
+            Played::new(SkiEnvironments {
+                lanes: Some(lanes),
+                maps,
+                ..setup(37, fidelity, edge, Autoreset::SameStep)
+            })
+        };
+        for lanes in widths().filter(|&lanes| lanes <= 16) {
+            let (mut one, mut many) = (make(1), make(lanes));
+            assert!(one.all() == many.all(), "after the reset");
+            let ends = agree(&mut one, &mut many, 60, ActionKind::MultiDiscrete);
+            assert!(ends >= 37, "{ends} ends are too few to test by");
+        }
+        let cut = Played::new(setup(37, fidelity, edge, Autoreset::SameStep));
+        assert!(cut.all() != make(1).all(), "the surface is not seen");
     }
 }
 

@@ -9,7 +9,7 @@ use discjump_core::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 use discjump_core::real::Scalar;
 use discjump_core::rules::Physics;
 use discjump_core::scene::Has;
-use discjump_core::terrain::Heightfield;
+use discjump_core::terrain::{Heightfield, SurfaceKind};
 use proptest::prelude::*;
 
 /// How deep an unswept fix-up may dip, m: a slice down one face of a pit ends 2 sin(slope) slices under the
@@ -61,6 +61,18 @@ proptest! {
         check_invariants::<Sliced, f64>(&terrain, start, &keys, 1e-9)?;
         check_invariants::<Fast, f32>(&terrain, start, &keys, 1e-3)?;
         check_invariants::<Fast, f64>(&terrain, start, &keys, 1e-9)?;
+    }
+
+    /// On bilinear ground as on triangles.
+    #[test]
+    fn every_tick_on_bilinear_ground_too(seed in 0..1000u64, start in start(), keys in keys()) {
+        let terrain = rough(seed).with_surface(SurfaceKind::Bilinear);
+        check_invariants::<Sliced, f32>(&terrain, start, &keys, 1e-3)?;
+        check_invariants::<Sliced, f64>(&terrain, start, &keys, 1e-9)?;
+        check_invariants::<Fast, f32>(&terrain, start, &keys, 1e-3)?;
+        check_invariants::<Fast, f64>(&terrain, start, &keys, 1e-9)?;
+        check_invariants::<Swept, f32>(&terrain, start, &keys, DIP)?;
+        check_invariants::<Engine, f32>(&terrain, start, &keys, f64::MAX)?;
     }
 
     /// `swept` dips in steep pits. `anyway` falls through them, and so may a sphere whose centre gets

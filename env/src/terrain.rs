@@ -5,7 +5,7 @@ use crate::errors::refused;
 use crate::solids::{Standing, of_mission};
 use discjump_core::terrain::mission::{Area, Mission};
 use discjump_core::terrain::statistics::Report;
-use discjump_core::terrain::{Edge, Heightfield, Maps, raindance};
+use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind, raindance};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -15,7 +15,8 @@ use pyo3::types::PyDict;
 /// Name, group, value, least, greatest, whether it is inside.
 type AcceptanceRow = (&'static str, String, f64, f64, f64, bool);
 
-/// A heightfield of squares cut in a checkerboard.
+/// A heightfield of squares, cut into triangles in a checkerboard (`surface` "triangles", the game's) or each
+/// filled by the bilinear interpolation of its corners ("bilinear").
 ///
 /// Make one with `Terrain.raindance(seed)` or `Terrain.from_heights(heights)`. Coordinates are
 /// metres, x east, y north, z up.
@@ -41,6 +42,19 @@ impl Terrain {
             solids = Standing::new(made.solids, &heightfield)?;
         }
         Ok(Self { heightfield, maps, mission, flag_stands, seed, solids })
+    }
+
+    /// The same with another surface. Mission and solids stay where they are on triangles.
+    fn surfaced(&self, surface: SurfaceKind) -> PyResult<Self> {
+        let heightfield = self.heightfield.clone().with_surface(surface);
+        Ok(Self {
+            maps: Maps::new(core::slice::from_ref(&heightfield)).map_err(refused)?,
+            heightfield,
+            mission: self.mission.clone(),
+            flag_stands: self.flag_stands,
+            seed: self.seed,
+            solids: self.solids.clone(),
+        })
     }
 
     /// Where episodes take place: the mission area, or the whole map.
@@ -72,42 +86,45 @@ impl Terrain {
     /// Terrain like Raindance: 257 x 257 heights, 8 m apart, with two flags and a bridge over a gorge.
     ///
     /// The same seed gives the same bits everywhere. `repeating=True` lays one 512 m cell 4 x 4, as
-    /// the original does.
+    /// the original does. `surface` is "triangles" or "bilinear"; heights, mission and solids are the same.
     ///
     /// >>> import discjump
     /// >>> terrain = discjump.Terrain.raindance(seed=7)
     /// >>> terrain.heights.shape
     /// (257, 257)
     #[staticmethod]
-    #[pyo3(signature = (seed=0, *, repeating=false))]
-    fn raindance(py: Python<'_>, seed: u64, repeating: bool) -> PyResult<Self> {
+    #[pyo3(signature = (seed=0, *, repeating=false, surface="triangles"))]
+    fn raindance(py: Python<'_>, seed: u64, repeating: bool, surface: &str) -> PyResult<Self> {
+        let surface: SurfaceKind = surface.parse().map_err(refused)?;
         let made = py
             .detach(|| raindance::generate(seed, raindance::Options { repeating }))
             .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
         let side = 257;
         let field = Heightfield::new(made.heights, side, side, 8.0, [-1024.0, -1024.0], Edge::Tile)
             .map_err(refused)?;
-        Self::new(field, Some(made.mission), Some(seed))
+        let cut = Self::new(field, Some(made.mission), Some(seed))?;
+        if surface == SurfaceKind::Triangles { Ok(cut) } else { cut.surfaced(surface) }
     }
 
     /// Terrain of the user's own heights, in metres, `heights[row y][column x]`, at least 2 x 2.
     ///
     /// `origin` is the place of `heights[0, 0]`. `edge` says what lies beyond the rim: "tile" (the map
     /// again, for ever; its last row and column repeat the first), "clamp" (the rim's heights go on) or
-    /// "void" (nothing).
+    /// "void" (nothing). `surface` is what lies between the heights: "triangles" or "bilinear".
     ///
     /// >>> import discjump, numpy as np
     /// >>> flat = discjump.Terrain.from_heights(np.zeros((65, 65)), edge="clamp")
     /// >>> flat.height([[3.0, 4.0]])
     /// array([0.])
     #[staticmethod]
-    #[pyo3(signature = (heights, square_size=8.0, origin=(0.0, 0.0), edge="tile"))]
+    #[pyo3(signature = (heights, square_size=8.0, origin=(0.0, 0.0), edge="tile", surface="triangles"))]
     fn from_heights(
         py: Python<'_>,
         heights: &Bound<'_, PyAny>,
         square_size: f64,
         origin: (f64, f64),
         edge: &str,
+        surface: &str,
     ) -> PyResult<Self> {
         let array = as_float64(py, "heights", heights)?;
         let shape: Vec<usize> = array.getattr("shape")?.extract()?;
@@ -119,9 +136,10 @@ impl Terrain {
         let array: PyReadonlyArray2<'_, f64> = array.extract()?;
         let values = array.as_slice()?.to_vec();
         let edge: Edge = edge.parse().map_err(refused)?;
+        let surface: SurfaceKind = surface.parse().map_err(refused)?;
         let field =
             Heightfield::new(values, rows, cols, square_size, [origin.0, origin.1], edge).map_err(refused)?;
-        Self::new(field, None, None)
+        Self::new(field.with_surface(surface), None, None)
     }
 
     /// Vertex heights, float64 (rows, columns), m: a copy.
@@ -153,6 +171,28 @@ impl Terrain {
     #[getter]
     fn edge(&self) -> &'static str {
         self.heightfield.edge().name()
+    }
+
+    /// What lies between the heights: "triangles" or "bilinear".
+    #[getter]
+    fn surface(&self) -> &'static str {
+        self.heightfield.surface().name()
+    }
+
+    /// The same heights, mission and solids with another surface: "triangles" or "bilinear".
+    ///
+    /// Smoother than the game's ground and not the same: within a square slopes change gradually, but they
+    /// still jump from one square to the next. A mission's flags and solids stay where they are on triangles.
+    ///
+    /// Raises ValueError for any other name.
+    ///
+    /// >>> import discjump, numpy as np
+    /// >>> pyramid = discjump.Terrain.from_heights(np.diag([0.0, 8.0]), edge="clamp")
+    /// >>> smooth = pyramid.with_surface("bilinear")
+    /// >>> pyramid.height([[4.0, 4.0]]), smooth.height([[4.0, 4.0]])
+    /// (array([4.]), array([2.]))
+    fn with_surface(&self, surface: &str) -> PyResult<Self> {
+        self.surfaced(surface.parse().map_err(refused)?)
     }
 
     /// The seed it was generated from, or None.
@@ -253,7 +293,7 @@ impl Terrain {
     }
 
     /// Statistics by name. Needs 257 x 257 (or 256 x 256) heights; those of the mission only where
-    /// there is one.
+    /// there is one. They are of the heights and of triangles between them, whatever the surface.
     fn statistics(&self) -> PyResult<std::collections::BTreeMap<&'static str, f64>> {
         Ok(self.report()?.rows.iter().map(|row| (row.name, row.value)).collect())
     }
@@ -273,7 +313,7 @@ impl Terrain {
         Ok(if self.mission.is_some() { report.passes() } else { report.passes_without_mission() })
     }
 
-    /// 32 hexadecimal digits that name the exact bits of grid and heights.
+    /// 32 hexadecimal digits that name the exact bits of grid and heights, and the surface.
     fn digest(&self) -> String {
         self.heightfield.digest()
     }
@@ -281,8 +321,12 @@ impl Terrain {
     fn __repr__(&self) -> String {
         let grid = &self.heightfield;
         let made = self.seed.map_or_else(String::new, |seed| format!("raindance seed {seed}, "));
+        let surface = match grid.surface() {
+            SurfaceKind::Triangles => String::new(),
+            other => format!(", surface \"{}\"", other.name()),
+        };
         format!(
-            "Terrain({made}{} x {} heights, {} m apart, edge \"{}\")",
+            "Terrain({made}{} x {} heights, {} m apart, edge \"{}\"{surface})",
             grid.rows(),
             grid.cols(),
             grid.square_size(),

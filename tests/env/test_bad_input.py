@@ -55,6 +55,8 @@ OPTIONS = [
     ({"terrain_seeds": [2, 2]}, ValueError, "2 more than once"),
     ({"terrain_seeds": [2**64]}, ValueError, "terrain_seeds"),
     ({"repeating": None}, TypeError, "repeating"),
+    ({"surface": "cubic"}, ValueError, "surface: expected one of 'triangles', 'bilinear', got 'cubic'"),
+    ({"surface": True}, TypeError, "surface"),
     ({"terrains": []}, ValueError, "terrains"),
     ({"terrains": HERE}, TypeError, "terrains"),
     ({"terrains": [HERE, "raindance"]}, TypeError, r"terrains\[1\]"),

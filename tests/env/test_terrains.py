@@ -95,6 +95,8 @@ BAD_HEIGHTS = [
     ({"square_size": np.nan}, ValueError, "square_size"),
     ({"origin": (np.nan, 0.0)}, ValueError, "origin"),
     ({"edge": "mirror"}, ValueError, "edge"),
+    ({"surface": "cubic"}, ValueError, "surface"),
+    ({"surface": 1}, TypeError, "surface"),
     ({"heights": np.arange(16.0).reshape(4, 4), "edge": "tile"}, ValueError, "tile"),
 ]
 

@@ -36,9 +36,11 @@ def actions(decision: int) -> NDArray[np.int64]:
     return held
 
 
-def rollout(fidelity: str) -> str:
+def rollout(fidelity: str, surface: str = "triangles") -> str:
     """Digest of a rollout of `discjump/Ski-v0` on a tier; episodes end by arrival and by the clock."""
-    envs = SkiVectorEnv(NUM_ENVS, fidelity=fidelity, threads=1, terrain_seeds=[0, 1, 2, 3], time_limit=20.0)
+    envs = SkiVectorEnv(
+        NUM_ENVS, fidelity=fidelity, surface=surface, threads=1, terrain_seeds=[0, 1, 2, 3], time_limit=20.0
+    )
     digest = hashlib.sha256()
     observations, _ = envs.reset(seed=0)
     digest.update(observations.tobytes())
@@ -49,9 +51,9 @@ def rollout(fidelity: str) -> str:
     return digest.hexdigest()
 
 
-def scene(name: str, fidelity: str) -> str:
+def scene(name: str, fidelity: str, surface: str = "triangles") -> str:
     """Digest of 16 worlds of 3 players about the bridge and in a base, who ski, jet and fire."""
-    terrain = discjump.Terrain.raindance(0)
+    terrain = discjump.Terrain.raindance(0, surface=surface)
     assert terrain.mission is not None
     sim = discjump.Simulator(
         terrain, NUM_ENVS, name, fidelity=fidelity, threads=1, players_per_world=3, weapon="disc"
@@ -93,7 +95,10 @@ def digests() -> dict[str, dict[str, str]]:
             f"scene {name}": {fidelity: scene(name, fidelity) for fidelity in TIERS}
             for name in ("sandbox", "disc_jump", "mission")
         },
+        "discjump/Ski-v0, bilinear": {fidelity: rollout(fidelity, "bilinear") for fidelity in TIERS},
+        "scene mission, bilinear": {fidelity: scene("mission", fidelity, "bilinear") for fidelity in TIERS},
         "solids": {"0": discjump.Terrain.raindance(0).solids_digest()},
+        "bilinear terrain": {"0": discjump.Terrain.raindance(0, surface="bilinear").digest()},
         "terrain": {str(seed): discjump.Terrain.raindance(seed).digest() for seed in TERRAIN_SEEDS},
         "repeating terrain": {
             str(seed): discjump.Terrain.raindance(seed, repeating=True).digest() for seed in TERRAIN_SEEDS[:2]

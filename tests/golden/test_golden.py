@@ -23,6 +23,12 @@ def test_rollouts_have_their_golden_bits(fidelity: str) -> None:
 
 
 @pytest.mark.parametrize("fidelity", TIERS)
+def test_bilinear_ground_has_its_golden_bits(fidelity: str) -> None:
+    assert rollout(fidelity, "bilinear") == GOLDEN["discjump/Ski-v0, bilinear"][fidelity]
+    assert scene("mission", fidelity, "bilinear") == GOLDEN["scene mission, bilinear"][fidelity]
+
+
+@pytest.mark.parametrize("fidelity", TIERS)
 @pytest.mark.parametrize("name", ["sandbox", "disc_jump", "mission"])
 def test_scenes_have_their_golden_bits(name: str, fidelity: str) -> None:
     assert scene(name, fidelity) == GOLDEN[f"scene {name}"][fidelity], (
@@ -37,3 +43,7 @@ def test_missions_have_their_golden_solids() -> None:
 @pytest.mark.parametrize("seed", TERRAIN_SEEDS)
 def test_terrains_have_their_golden_bits(seed: int) -> None:
     assert discjump.Terrain.raindance(seed).digest() == GOLDEN["terrain"][str(seed)]
+
+
+def test_a_bilinear_terrain_has_its_golden_name() -> None:
+    assert discjump.Terrain.raindance(0, surface="bilinear").digest() == GOLDEN["bilinear terrain"]["0"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from stable_baselines3 import PPO
 
-from discjump_training import baselines, model, train
+from discjump_training import baselines, files, model, train
 from discjump_training.courses import VALIDATION
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
@@ -46,14 +46,14 @@ def test_sampled_actions_repeat_and_leave_the_global_generator_alone(ppo):
 
 def test_a_crash_while_writing_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "file"
-    model.write_atomically(path, b"old")
+    files.write_atomically(path, b"old")
 
     def crash(descriptor):
         raise OSError("no space left")
 
     monkeypatch.setattr("os.fsync", crash)
     with pytest.raises(OSError, match="no space left"):
-        model.write_atomically(path, b"new")
+        files.write_atomically(path, b"new")
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
 

@@ -47,6 +47,13 @@ def test_the_ablation_differs_in_the_fan_alone():
         ("rollout.num_envs=0", r"rollout\.num_envs: .*greater than 0, got 0"),
         ("ppo.batch_size=1000", r"ppo\.batch_size: must divide .*65536, got 1000"),
         ("environment.fan_ranges=[]", r"fan_bearings and fan_ranges: either both are empty"),
+        ("environment.tick_ms=0", r"environment\.tick_ms: .*greater than 0, got 0"),
+        ("environment.tick_ms=2000", r"environment: tick_ms: expected an integer from 1 to 1000, got 2000"),
+        (
+            "environment.surface='cubic'",
+            r"environment: surface: expected one of 'triangles', 'bilinear', got 'cubic'",
+        ),
+        ("environment.fidelity='exact'", r"environment: fidelity: expected one of"),
         ("environment.course='ski-v9'", r"no course is named 'ski-v9'; there are ski-train-v1"),
         ("watch.evaluate_episodes=100_000", r"evaluate_episodes: ski-validation-v1 has 512"),
         ("ppo.gamma", r"expected section\.field=value, got 'ppo\.gamma'"),
@@ -61,6 +68,17 @@ def test_what_does_not_fit_is_refused_by_name(override, message):
 def test_the_reward_by_default_is_the_environments():
     """Caught: the recipe said -0.156 per second where the environment says -0.15625."""
     assert Recipe.load("ski").environment.reward.model_dump() == REWARD
+
+
+def test_physics_left_out_is_the_tasks():
+    """Recipes of runs that are older than a field still load."""
+    older = tomllib.loads(Recipe.load("ski").to_toml())
+    del older["environment"]["tick_ms"], older["environment"]["surface"]
+    assert Recipe.parse(older, "older") == Recipe.load("ski")
+    other = Recipe.load(
+        "ski", ("environment.tick_ms=16", 'environment.surface="bilinear"')
+    ).environment.kwargs()
+    assert (other["tick_ms"], other["surface"]) == (16, "bilinear")
 
 
 def test_unreadable_files_are_refused(tmp_path):

@@ -89,6 +89,10 @@ impl Movement for Engine {
 
             fresh = struck;
             if struck.any() {
+                if world.surface().is_curved() {
+                    let ahead = ground.normal_ahead(p.velocity * (dt - elapsed));
+                    normal = V3::select(body.hit, normal, ahead);
+                }
                 let blocked = if W::BODIES {
                     let steep = body.hit.and(normal.z.le(R::lit(armor::ENGINE_STEP_UP)));
                     // A path of mean speeds may lead into a body that the new speed leaves: the path ends

@@ -52,7 +52,7 @@ impl Movement for Fast {
         let path = p.velocity * dt;
         let end = p.position + path;
         let mut ground = world.surface().ground::<R>(at.map, end.x, end.y);
-        let near = may_meet(&ground, end, path);
+        let near = may_meet(world.surface(), &ground, end, path);
         let mut hit = Hit::none();
         if near.any() {
             hit = world.surface().sweep::<R>(at.map, at.position, path, near);
@@ -115,17 +115,27 @@ impl Movement for Fast {
         let end = p.position + path;
         let ground = surface.ground::<R>(p.map, end.x, end.y);
         let sunk = ground.exists.and(end.z.lt(ground.height));
-        let passed = may_meet(&ground, end, path).or(sunk).not();
+        let passed = may_meet(surface, &ground, end, path).or(sunk).not();
         untouched(p, passed, end);
         passed
     }
 }
 
-/// Whose move along `path` has an end below the plane of the ground under its end.
+/// Whose move along `path` has an end below the plane of the ground under its end, or below that patch.
 #[inline(always)]
-fn may_meet<R: Real>(ground: &Ground<R>, end: V3<R>, path: V3<R>) -> R::Mask {
+fn may_meet<R: Real>(
+    surface: &Surface<'_, R::Scalar>,
+    ground: &Ground<R>,
+    end: V3<R>,
+    path: V3<R>,
+) -> R::Mask {
     // Height of the end over the plane, and how much of it the move has gained.
     let gap = end.z - ground.height;
-    let climb = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
+    let mut climb = path.z - (ground.slope_x * path.x + ground.slope_y * path.y);
+    if surface.is_curved() {
+        // A patch that falls away from its plane is farther below the path than that; one that rises above
+        // it does so most at the start.
+        climb = climb + (ground.twist * path.x * path.y).max(R::zero());
+    }
     ground.exists.and(gap.min(gap - climb).lt(R::zero()))
 }

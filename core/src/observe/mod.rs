@@ -19,6 +19,7 @@ fn seen_ground<R: Real>(surface: &Surface<'_, R::Scalar>, map: R::Int, x: R, y: 
         height: R::select(ground.exists, ground.height, lowest),
         slope_x: R::select(ground.exists, ground.slope_x, R::zero()),
         slope_y: R::select(ground.exists, ground.slope_y, R::zero()),
+        twist: ground.twist,
         exists: ground.exists,
     }
 }

@@ -1,5 +1,6 @@
 //! One terrain as its user gave it.
 
+use super::kind::SurfaceKind;
 use crate::error::{InputError, refuse};
 
 /// What lies beyond a map's rim.
@@ -81,12 +82,14 @@ impl Grid {
 
 /// A heightfield: vertex heights, `heights[row y * cols + column x]`, metres.
 ///
-/// Square (i, j), i east and j north, is cut from its low-x low-y corner to the opposite one where
-/// i + j is even, and across where it is odd (docs/physics.md, section 8).
+/// Between them lie triangles, unless [`Heightfield::with_surface`] says otherwise: square (i, j), i east
+/// and j north, is cut from its low-x low-y corner to the opposite one where i + j is even, and across where
+/// it is odd (docs/physics.md, section 8).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heightfield {
     heights: Vec<f64>,
     grid: Grid,
+    surface: SurfaceKind,
 }
 
 impl Heightfield {
@@ -141,7 +144,15 @@ impl Heightfield {
                 );
             }
         }
-        Ok(Self { heights, grid: Grid { rows, cols, square_size, origin, edge } })
+        let grid = Grid { rows, cols, square_size, origin, edge };
+        Ok(Self { heights, grid, surface: SurfaceKind::Triangles })
+    }
+
+    /// The same heights with another surface between them.
+    #[must_use]
+    pub fn with_surface(mut self, surface: SurfaceKind) -> Self {
+        self.surface = surface;
+        self
     }
 
     /// Vertex heights, row by row, m.
@@ -186,7 +197,13 @@ impl Heightfield {
         self.grid.edge
     }
 
-    /// XXH3-128 of shape, grid and heights, as 32 hexadecimal digits.
+    /// What lies between its vertices.
+    #[must_use]
+    pub fn surface(&self) -> SurfaceKind {
+        self.surface
+    }
+
+    /// XXH3-128 of shape, grid, heights and surface, as 32 hexadecimal digits.
     #[must_use]
     pub fn digest(&self) -> String {
         let mut bytes = Vec::with_capacity(self.heights.len() * 8 + 64);
@@ -197,6 +214,10 @@ impl Heightfield {
         }
         bytes.extend(self.grid.edge.name().as_bytes());
         self.heights.iter().for_each(|h| bytes.extend(h.to_le_bytes()));
+        // Triangles are not named: their digests are older than any other surface.
+        if self.surface != SurfaceKind::Triangles {
+            bytes.extend(self.surface.name().as_bytes());
+        }
         format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&bytes))
     }
 }

@@ -1,6 +1,7 @@
 //! A pool of equal-sized heightfields, and the change between world and local coordinates.
 
 use super::heightfield::{Edge, Grid, Heightfield};
+use super::kind::SurfaceKind;
 use super::surface::Surface;
 use crate::error::InputError;
 use crate::real::{Scalar, same_type};
@@ -24,6 +25,7 @@ pub const MAX_ALTITUDE: f64 = 1e5;
 #[derive(Clone, Debug)]
 pub struct Maps {
     grid: Grid,
+    kind: SurfaceKind,
     pairs64: Vec<[f64; 2]>,
     pairs32: Vec<[f32; 2]>,
     ranges: Vec<(f64, f64)>,
@@ -35,11 +37,12 @@ impl Maps {
     /// Pools heightfields.
     ///
     /// # Errors
-    /// If there is none, if their grids differ, or if there are more vertices than an `i32` counts.
+    /// If there is none, if their grids or surfaces differ, or if there are more vertices than an `i32` counts.
     pub fn new(terrains: &[Heightfield]) -> Result<Self, InputError> {
-        let Some(grid) = terrains.first().map(Heightfield::grid) else {
+        let Some(first) = terrains.first() else {
             return Err(InputError("terrains: expected at least one, got none".into()));
         };
+        let (grid, kind) = (first.grid(), first.surface());
         if let Some(k) = terrains.iter().position(|t| t.grid() != grid) {
             return Err(InputError(format!(
                 "terrains: expected the same shape, square size, origin and edge everywhere, but number {k} \
@@ -48,6 +51,13 @@ impl Maps {
                 terrains[k].cols(),
                 grid.rows,
                 grid.cols
+            )));
+        }
+        if let Some(k) = terrains.iter().position(|t| t.surface() != kind) {
+            return Err(InputError(format!(
+                "terrains: expected the same surface everywhere, but number {k} has {:?} and number 0 {:?}",
+                terrains[k].surface().name(),
+                kind.name()
             )));
         }
         let total = terrains.len() * grid.vertices();
@@ -71,7 +81,11 @@ impl Maps {
         for row in terrains.iter().flat_map(|t| t.heights().chunks(grid.cols)) {
             digest.update(&row.iter().flat_map(|h| h.to_le_bytes()).collect::<Vec<u8>>());
         }
-        Ok(Self { grid: *grid, pairs64, pairs32, ranges, highest, digest: digest.digest128() })
+        // Triangles are not named: their digests are older than any other surface.
+        if kind != SurfaceKind::Triangles {
+            digest.update(kind.name().as_bytes());
+        }
+        Ok(Self { grid: *grid, kind, pairs64, pairs32, ranges, highest, digest: digest.digest128() })
     }
 
     /// How many maps there are.
@@ -84,6 +98,12 @@ impl Maps {
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    /// What lies between the vertices of every map.
+    #[must_use]
+    pub fn kind(&self) -> SurfaceKind {
+        self.kind
     }
 
     /// Offset of a map's first vertex: what [`crate::player::Player::map`] holds.
@@ -110,7 +130,7 @@ impl Maps {
         size_of_val(&*self.pairs64) + size_of_val(&*self.pairs32)
     }
 
-    /// XXH3-128 of grid and heights.
+    /// XXH3-128 of grid, heights and surface.
     #[must_use]
     pub fn digest(&self) -> u128 {
         self.digest
@@ -120,7 +140,7 @@ impl Maps {
     #[must_use]
     pub fn surface<T: Scalar>(&self) -> Surface<'_, T> {
         let pairs = if T::DOUBLE { same_type(&self.pairs64) } else { same_type(&self.pairs32) };
-        Surface::new(pairs, &self.grid, self.highest)
+        Surface::new(pairs, &self.grid, self.kind, self.highest)
     }
 
     /// World coordinates of the vertex that local coordinates count from, m.

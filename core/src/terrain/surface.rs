@@ -1,6 +1,9 @@
 //! The kernel's view of a pool of maps: height and slope at a point.
 
+use super::facets::Square;
 use super::heightfield::{Edge, Grid};
+use super::kind::SurfaceKind;
+use super::patch::Patch;
 use crate::real::{Int, Mask, Real, Scalar, V3};
 
 /// A pool of maps in the arithmetic `T`.
@@ -16,26 +19,21 @@ pub struct Surface<'a, T> {
     period: [T; 2],
     low: [T; 2],
     edge: Edge,
+    pub(super) kind: SurfaceKind,
     pub(super) highest: T,
 }
 
-/// One square, mirrored in x where its cut runs the other way, so that one formula serves both.
+/// The corners of one square.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Square<R: Real> {
-    corner: [R; 4],
-    /// Whether x is mirrored.
-    pub(super) mirrored: R::Mask,
+pub(super) struct Corners<R: Real> {
+    pub(super) sw: R,
+    pub(super) se: R,
+    pub(super) nw: R,
+    pub(super) ne: R,
+    /// Odd where the cut into triangles runs the other way.
+    pub(super) parity: R::Int,
     /// Whether there is ground.
     pub(super) ground: R::Mask,
-}
-
-/// The plane of a triangle: height at the square's (mirrored) corner and slopes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plane<R> {
-    pub(super) z: R,
-    /// Slope in mirrored x.
-    pub(super) gx: R,
-    pub(super) gy: R,
 }
 
 /// Height and slope of the ground below or above a point.
@@ -43,19 +41,31 @@ pub(super) struct Plane<R> {
 pub struct Ground<R: Real> {
     /// Height, m.
     pub height: R,
-    /// dz/dx of the triangle.
+    /// dz/dx of the triangle, or of the patch at the point.
     pub slope_x: R,
-    /// dz/dy of the triangle.
+    /// dz/dy of the same.
     pub slope_y: R,
+    /// How fast each slope changes along the other axis within the square, 1/m: 0 on triangles.
+    pub twist: R,
     /// False beyond the rim on [`Edge::Void`].
     pub exists: R::Mask,
 }
 
 impl<R: Real> Ground<R> {
-    /// The triangle's unit normal.
+    /// The unit normal of the triangle, or of the patch at the point.
     #[inline(always)]
     pub fn normal(&self) -> V3<R> {
         unit_normal(self.slope_x, self.slope_y)
+    }
+
+    /// The unit normal for whoever goes on a straight way of so many metres from the point: where the patch
+    /// bends up towards him it is that of its end, else that of the point. See `patch` for why.
+    #[inline(always)]
+    pub fn normal_ahead(&self, way: V3<R>) -> V3<R> {
+        let zero = R::zero();
+        let rises = zero.lt(self.twist * way.x * way.y);
+        let twist = R::select(rises, self.twist, zero);
+        unit_normal(self.slope_x + twist * way.y, self.slope_y + twist * way.x)
     }
 }
 
@@ -67,25 +77,8 @@ pub(super) fn unit_normal<R: Real>(gx: R, gy: R) -> V3<R> {
     V3::new(-gx * up, -gy * up, up)
 }
 
-impl<R: Real> Square<R> {
-    /// The plane of the lower triangle (beside the x axis, mirrored) or of the upper one.
-    #[inline(always)]
-    pub(super) fn plane(&self, lower: R::Mask, inverse: R) -> Plane<R> {
-        let [sw, se, nw, ne] = self.corner;
-        let gx = R::select(lower, se - sw, ne - nw) * inverse;
-        let gy = R::select(lower, ne - se, nw - sw) * inverse;
-        Plane { z: sw, gx, gy }
-    }
-
-    /// The slope in x as it is in the world.
-    #[inline(always)]
-    pub(super) fn world_slope(&self, plane: &Plane<R>) -> R {
-        R::select(self.mirrored, -plane.gx, plane.gx)
-    }
-}
-
 impl<'a, T: Scalar> Surface<'a, T> {
-    pub(super) fn new(pairs: &'a [[T; 2]], grid: &Grid, highest: f64) -> Self {
+    pub(super) fn new(pairs: &'a [[T; 2]], grid: &Grid, kind: SurfaceKind, highest: f64) -> Self {
         let (rows, cols) = (grid.rows as i32, grid.cols as i32);
         let centre = grid.centre_vertex().map(|i| i as i32);
         let t = T::from_f64;
@@ -100,6 +93,7 @@ impl<'a, T: Scalar> Surface<'a, T> {
             period: grid.size().map(t),
             low: [t(-f64::from(centre[0]) * size), t(-f64::from(centre[1]) * size)],
             edge: grid.edge,
+            kind,
             highest: t(highest),
         }
     }
@@ -113,9 +107,15 @@ impl<'a, T: Scalar> Surface<'a, T> {
         (i.clamp(-FARTHEST, FARTHEST), j.clamp(-FARTHEST, FARTHEST))
     }
 
+    /// Whether a straight path may bend relative to the ground under it within one square.
+    #[inline(always)]
+    pub fn is_curved(&self) -> bool {
+        self.kind == SurfaceKind::Bilinear
+    }
+
     /// The corners of a square of a map.
     #[inline(always)]
-    pub(super) fn square<R: Real<Scalar = T>>(&self, map: R::Int, i: R::Int, j: R::Int) -> Square<R> {
+    pub(super) fn corners<R: Real<Scalar = T>>(&self, map: R::Int, i: R::Int, j: R::Int) -> Corners<R> {
         let i = i.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[0]);
         let j = j.clamp(-FARTHEST, FARTHEST) + R::Int::splat(self.centre[1]);
         let (last_i, last_j) = (self.cols - 2, self.rows - 2);
@@ -140,7 +140,6 @@ impl<'a, T: Scalar> Surface<'a, T> {
                 parity = i + j;
             }
         }
-        let mirrored = parity.is_odd();
         let index = map + row * R::Int::splat(self.cols) + column;
         let [mut sw, mut nw, mut se, mut ne] = R::gather_square(self.pairs, index);
         if self.edge == Edge::Clamp {
@@ -153,13 +152,7 @@ impl<'a, T: Scalar> Surface<'a, T> {
             let beyond_south = j.lt(zero);
             (nw, ne) = (R::select(beyond_south, sw, nw), R::select(beyond_south, se, ne));
         }
-        let corner = [
-            R::select(mirrored, se, sw),
-            R::select(mirrored, sw, se),
-            R::select(mirrored, ne, nw),
-            R::select(mirrored, nw, ne),
-        ];
-        Square { corner, mirrored, ground }
+        Corners { sw, se, nw, ne, parity, ground }
     }
 
     /// The inverse of the square size.
@@ -169,21 +162,17 @@ impl<'a, T: Scalar> Surface<'a, T> {
     }
 
     /// Height and slope at a local point (docs/physics.md, section 8). Ties on a cut belong to the
-    /// upper triangle.
+    /// upper triangle, those between two squares to the one farther east or north.
     #[inline(always)]
     pub fn ground<R: Real<Scalar = T>>(&self, map: R::Int, x: R, y: R) -> Ground<R> {
         let (i, j) = self.square_of(x, y);
         let size = R::splat(self.square);
         let a = x - R::from_int(i) * size;
         let b = y - R::from_int(j) * size;
-        let square = self.square::<R>(map, i, j);
-        let a = R::select(square.mirrored, size - a, a);
-        let plane = square.plane(b.lt(a), self.inverse());
-        Ground {
-            height: plane.z + plane.gx * a + plane.gy * b,
-            slope_x: square.world_slope(&plane),
-            slope_y: plane.gy,
-            exists: square.ground,
+        let corners = self.corners::<R>(map, i, j);
+        match self.kind {
+            SurfaceKind::Triangles => Square::new(&corners).ground(a, b, size, self.inverse()),
+            SurfaceKind::Bilinear => Patch::new(&corners, self.inverse()).ground(a, b),
         }
     }
 

@@ -1,6 +1,8 @@
-//! The exact sweep of a point against the triangulated surface (docs/physics.md, section 5).
+//! The exact sweep of a point against the surface (docs/physics.md, section 5).
 
-use super::surface::{Plane, Square, Surface, unit_normal};
+use super::facets::Facets;
+use super::patch::Curve;
+use super::surface::{Corners, Surface, unit_normal};
 use crate::real::{Int, Mask, Real, Scalar, V3, Work};
 
 /// The first contact along a path.
@@ -10,7 +12,7 @@ pub struct Hit<R: Real> {
     pub hit: R::Mask,
     /// Where, as a fraction of the path, in [0, 1].
     pub fraction: R,
-    /// Unit normal of what is met: the triangle's or the body's.
+    /// Unit normal of what is met: the ground's or the body's.
     pub normal: V3<R>,
     /// Whether it is a body rather than terrain.
     pub body: R::Mask,
@@ -40,10 +42,10 @@ impl<R: Real> Hit<R> {
 }
 
 /// What the squares under a path have in common.
-struct Course<R: Real> {
-    path: V3<R>,
+pub(super) struct Course<R: Real> {
+    pub(super) path: V3<R>,
     /// Height of the start.
-    z: R,
+    pub(super) z: R,
     /// The first square.
     i: R::Int,
     j: R::Int,
@@ -56,90 +58,46 @@ struct Course<R: Real> {
     south: R::Mask,
 }
 
-/// A path over one square.
-struct Over<R: Real> {
-    /// Where it would leave by each side, and by the nearer one, as fractions of the path.
+/// The part of a path over one square, in fractions of the path.
+pub(super) struct Span<R: Real> {
+    pub(super) from: R,
+    /// Where it leaves, or ends.
+    pub(super) to: R,
+    /// Where it would leave by each side, and by the nearer one.
     to_x: R,
     to_y: R,
     next: R,
-    /// Where it leaves, or ends.
-    to: R,
-    square: Square<R>,
-    /// The triangles, in the order of the path.
-    first: Piece<R>,
-    second: Piece<R>,
-    /// Whether either is met.
-    met: R::Mask,
 }
 
-/// The path relative to one square.
-struct Path<R> {
-    /// Start, in the square's mirrored coordinates.
-    x: R,
-    y: R,
-    z: R,
-    /// Displacement, mirrored.
-    dx: R,
-    dy: R,
-    dz: R,
+/// Where a path meets the ground over a square.
+pub(super) struct Contact<R: Real> {
+    /// As a fraction of the path.
+    pub(super) fraction: R,
+    /// Slopes of the ground there.
+    pub(super) slope_x: R,
+    pub(super) slope_y: R,
+    /// Whether the path leads into the ground of these slopes. Where it does not, but for rounding, there is
+    /// no contact.
+    pub(super) inward: R::Mask,
 }
 
-/// The part of a path that lies over one triangle.
-struct Piece<R: Real> {
-    from: R,
-    to: R,
-    /// The triangle's plane.
-    plane: Plane<R>,
-    /// Gap to the plane at both ends, negative below it: distances times the same factor 1 / n.up, which
-    /// their ratio does not see.
-    enter: R,
-    leave: R,
-    /// Whether the plane is met: one-sided, and at the entry for what is already below.
-    met: R::Mask,
-}
+/// What fills a square between its corners, seen from a path over it.
+pub(super) trait Filling<R: Real> {
+    /// Under the part of the path in `span`; `x` and `y` are those of the path's start, relative to the
+    /// square's corner.
+    fn over<const TWO_SIDED: bool>(
+        surface: &Surface<'_, R::Scalar>,
+        corners: &Corners<R>,
+        course: &Course<R>,
+        start: (R, R),
+        span: &Span<R>,
+    ) -> Self;
 
-impl<R: Real> Piece<R> {
-    #[inline(always)]
-    fn new<const TWO_SIDED: bool>(path: &Path<R>, plane: Plane<R>, from: R, to: R) -> Self {
-        let approach = path.dz - (plane.gx * path.dx + plane.gy * path.dy);
-        let gap = path.z - (plane.z + plane.gx * path.x + plane.gy * path.y);
-        let enter = gap + approach * from;
-        let leave = gap + approach * to;
-        let zero = R::zero();
-        let under = enter.le(zero);
-        let crosses = leave.lt(zero);
-        let meets = if TWO_SIDED {
-            // From above down, or from below (the plane itself counts as below) up.
-            under.not().and(crosses).or(under.and(zero.lt(leave)))
-        } else {
-            approach.lt(zero).and(under.or(crosses))
-        };
-        Self { from, to, plane, enter, leave, met: meets.and(from.lt(to)) }
-    }
+    /// Whether it is met.
+    fn met(&self) -> R::Mask;
 
-    /// Where the plane is met, as a fraction of the path.
-    #[inline(always)]
-    fn fraction<const TWO_SIDED: bool>(&self) -> R {
-        let at = self.from + (self.to - self.from) * (self.enter / (self.enter - self.leave));
-        if TWO_SIDED { at } else { R::select(self.enter.le(R::zero()), self.from, at) }
-    }
-
-    /// `a` where the mask is set, `b` elsewhere.
-    #[inline(always)]
-    fn select(mask: R::Mask, a: &Self, b: &Self) -> Self {
-        Self {
-            from: R::select(mask, a.from, b.from),
-            to: R::select(mask, a.to, b.to),
-            plane: Plane {
-                z: b.plane.z,
-                gx: R::select(mask, a.plane.gx, b.plane.gx),
-                gy: R::select(mask, a.plane.gy, b.plane.gy),
-            },
-            enter: R::select(mask, a.enter, b.enter),
-            leave: R::select(mask, a.leave, b.leave),
-            met: a.met.or(b.met),
-        }
-    }
+    /// Where it is first met, where it is.
+    fn contact<const TWO_SIDED: bool>(&self, course: &Course<R>) -> Contact<R>;
 }
 
 /// A walk over the squares under a path, compiled once for each lane width: it is most of a tick, and
@@ -157,14 +115,59 @@ impl<R: Real, const TWO_SIDED: bool> Work for March<'_, R, TWO_SIDED> {
 
     #[inline(always)]
     fn run(self) -> Hit<R> {
-        self.surface.march::<R, TWO_SIDED>(self.map, self.start, self.path, self.active)
+        self.surface.march::<R, Facets<R>, TWO_SIDED>(self.map, self.start, self.path, self.active)
     }
+}
+
+/// The same over bilinear patches.
+struct CurvedMarch<'a, R: Real, const TWO_SIDED: bool>(March<'a, R, TWO_SIDED>);
+
+impl<R: Real, const TWO_SIDED: bool> Work for CurvedMarch<'_, R, TWO_SIDED> {
+    type Output = Hit<R>;
+
+    #[inline(always)]
+    fn run(self) -> Hit<R> {
+        let March { surface, map, start, path, active } = self.0;
+        surface.march::<R, Curve<R>, TWO_SIDED>(map, start, path, active)
+    }
+}
+
+/// One look at the first patch under a path.
+struct CurvedLook<'a, R: Real> {
+    surface: &'a Surface<'a, R::Scalar>,
+    map: R::Int,
+    start: V3<R>,
+    path: V3<R>,
+}
+
+impl<R: Real> Work for CurvedLook<'_, R> {
+    type Output = R::Mask;
+
+    #[inline(always)]
+    fn run(self) -> R::Mask {
+        self.surface.clears_first::<R, Curve<R>>(self.map, self.start, self.path)
+    }
+}
+
+/// The kernels are laid out for triangles, and hold no more of other surfaces than a call.
+#[cold]
+#[inline(never)]
+fn out_of_line<R: Real, W: Work>(work: W) -> W::Output {
+    R::enter(work)
+}
+
+/// The same; field by field, so that what triangles give need not pass through memory as this does.
+#[inline(always)]
+fn enter_curved<R: Real, const TWO_SIDED: bool>(march: CurvedMarch<'_, R, TWO_SIDED>) -> Hit<R> {
+    let Hit { hit, fraction, normal, body } = out_of_line::<R, _>(march);
+    Hit { hit, fraction, normal, body }
 }
 
 impl<T: Scalar> Surface<'_, T> {
     /// Sweeps a point from a local position along a displacement, both in metres, and finds the
     /// first triangle that it meets from above, or that it is already below where it enters the
     /// triangle's column while moving into it. A path that only just reaches a plane does not meet it.
+    /// Over bilinear patches: the first place where it is on or below the surface and moves into it.
     ///
     /// Lanes outside `active` report no contact.
     #[inline(always)]
@@ -175,12 +178,15 @@ impl<T: Scalar> Surface<'_, T> {
         path: V3<R>,
         active: R::Mask,
     ) -> Hit<R> {
+        if self.is_curved() {
+            return enter_curved(CurvedMarch::<R, false>(March { surface: self, map, start, path, active }));
+        }
         R::enter(March::<R, false> { surface: self, map, start, path, active })
     }
 
     /// Follows a line from a local position along a displacement, both in metres, to the first
-    /// triangle that it crosses from either side (section 8: a projectile's line). A start exactly on
-    /// a triangle counts as below it. The normal is the upper side's, whichever side is met.
+    /// triangle or patch that it crosses from either side (section 8: a projectile's line). A start exactly
+    /// on it counts as below. The normal is the upper side's, whichever side is met.
     ///
     /// Lanes outside `active` report no contact.
     #[inline(always)]
@@ -191,6 +197,9 @@ impl<T: Scalar> Surface<'_, T> {
         path: V3<R>,
         active: R::Mask,
     ) -> Hit<R> {
+        if self.is_curved() {
+            return enter_curved(CurvedMarch::<R, true>(March { surface: self, map, start, path, active }));
+        }
         R::enter(March::<R, true> { surface: self, map, start, path, active })
     }
 
@@ -198,10 +207,26 @@ impl<T: Scalar> Surface<'_, T> {
     /// nothing there. No branch: several players' looks overlap.
     #[inline(always)]
     pub fn passes<R: Real<Scalar = T>>(&self, map: R::Int, start: V3<R>, path: V3<R>) -> R::Mask {
+        if self.is_curved() {
+            return out_of_line::<R, _>(CurvedLook { surface: self, map, start, path });
+        }
+        self.clears_first::<R, Facets<R>>(map, start, path)
+    }
+
+    #[inline(always)]
+    fn clears_first<R: Real<Scalar = T>, F: Filling<R>>(
+        &self,
+        map: R::Int,
+        start: V3<R>,
+        path: V3<R>,
+    ) -> R::Mask {
         let course = self.course(start, path);
-        let over = self.over::<R, false>(map, &course, (course.i, course.j), (course.x, course.y), R::zero());
-        let stays = over.next.lt(R::lit(1.0)).not();
-        self.below_highest(start, path).not().or(stays.and(over.met.not()))
+        let place = (course.x, course.y);
+        let span = self.span(&course, place, R::zero());
+        let corners = self.corners::<R>(map, course.i, course.j);
+        let filling = F::over::<false>(self, &corners, &course, place, &span);
+        let stays = span.next.lt(R::lit(1.0)).not();
+        self.below_highest(start, path).not().or(stays.and(filling.met().not()))
     }
 
     /// Whose path is not above every vertex all the way: there nothing is to be met.
@@ -225,19 +250,11 @@ impl<T: Scalar> Surface<'_, T> {
         Course { path, z: start.z, i, j, x, y, east, west, north, south }
     }
 
-    /// The path over one square, entered at `from`; `x` and `y` are those of the path's start, relative to
-    /// the square's corner.
+    /// The part of the path over one square, entered at `from`; `x` and `y` are those of the path's start,
+    /// relative to the square's corner.
     #[inline(always)]
-    fn over<R: Real<Scalar = T>, const TWO_SIDED: bool>(
-        &self,
-        map: R::Int,
-        course: &Course<R>,
-        (i, j): (R::Int, R::Int),
-        (x, y): (R, R),
-        from: R,
-    ) -> Over<R> {
-        let Course { path, z, east, west, north, south, .. } = *course;
-        let zero = R::zero();
+    fn span<R: Real<Scalar = T>>(&self, course: &Course<R>, (x, y): (R, R), from: R) -> Span<R> {
+        let Course { path, east, west, north, south, .. } = *course;
         let size = R::splat(self.square);
         let never = R::lit(2.0);
         let to_x = R::select(east, size - x, -x) / path.x;
@@ -246,35 +263,12 @@ impl<T: Scalar> Surface<'_, T> {
         let to_y = R::select(north.or(south), to_y, never);
         let next = to_x.min(to_y);
         let to = next.min(R::lit(1.0)).max(from);
-
-        let square = self.square::<R>(map, i, j);
-        let mirror = square.mirrored;
-        let local = Path {
-            x: R::select(mirror, size - x, x),
-            y,
-            z,
-            dx: R::select(mirror, -path.x, path.x),
-            dy: path.y,
-            dz: path.z,
-        };
-        // Across the cut: beside the x axis while x - y > 0.
-        let side = local.x - local.y;
-        let turn = local.dx - local.dy;
-        let along = turn.le(zero).and(zero.le(turn));
-        let cut = (-side / turn).max(from).min(to);
-        let cut = R::select(along, to, cut);
-        let first_lower = R::select(along, -side, turn).lt(zero);
-        let lower = square.plane(first_lower, self.inverse());
-        let upper = square.plane(first_lower.not(), self.inverse());
-        let first = Piece::new::<TWO_SIDED>(&local, lower, from, cut);
-        let second = Piece::new::<TWO_SIDED>(&local, upper, cut, to);
-        let met = square.ground.and(first.met.or(second.met));
-        Over { to_x, to_y, next, to, square, first, second, met }
+        Span { from, to, to_x, to_y, next }
     }
 
     /// Walks the squares under a path in order and stops at the first contact.
     #[inline(always)]
-    fn march<R: Real<Scalar = T>, const TWO_SIDED: bool>(
+    fn march<R: Real<Scalar = T>, F: Filling<R>, const TWO_SIDED: bool>(
         &self,
         map: R::Int,
         start: V3<R>,
@@ -298,26 +292,29 @@ impl<T: Scalar> Surface<'_, T> {
         let (mut x, mut y) = (course.x, course.y);
         let mut from = zero;
         while active.any() {
-            let over = self.over::<R, TWO_SIDED>(map, &course, (i, j), (x, y), from);
-            let hit = active.and(over.met);
+            let span = self.span(&course, (x, y), from);
+            let corners = self.corners::<R>(map, i, j);
+            let filling = F::over::<TWO_SIDED>(self, &corners, &course, (x, y), &span);
+            let mut hit = active.and(filling.met());
             // Most squares are passed over, and need no division to say where they are met.
             if hit.any() {
-                let piece = Piece::select(over.first.met, &over.first, &over.second);
-                fraction = R::select(hit, piece.fraction::<TWO_SIDED>(), fraction);
-                slope_x = R::select(hit, over.square.world_slope(&piece.plane), slope_x);
-                slope_y = R::select(hit, piece.plane.gy, slope_y);
+                let contact = filling.contact::<TWO_SIDED>(&course);
+                hit = hit.and(contact.inward);
+                fraction = R::select(hit, contact.fraction, fraction);
+                slope_x = R::select(hit, contact.slope_x, slope_x);
+                slope_y = R::select(hit, contact.slope_y, slope_y);
                 found = found.or(hit);
             }
-            active = active.and(hit.not()).and(over.next.lt(one));
+            active = active.and(hit.not()).and(span.next.lt(one));
 
-            let cross_x = over.to_x.le(over.to_y);
-            let cross_y = over.to_y.le(over.to_x);
+            let cross_x = span.to_x.le(span.to_y);
+            let cross_y = span.to_y.le(span.to_x);
             i = R::Int::select(cross_x, i + step_i, i);
             j = R::Int::select(cross_y, j + step_j, j);
             // From the first square anew: a sum of steps would drift, and at last stand still.
             x = course.x - R::from_int(i - course.i) * size;
             y = course.y - R::from_int(j - course.j) * size;
-            from = over.to;
+            from = span.to;
         }
         let mut normal = V3::new(-zero, -zero, one);
         if found.any() {

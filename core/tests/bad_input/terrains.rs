@@ -1,7 +1,7 @@
 //! Heightfields and pools of them.
 
 use crate::{INF, NAN, refused};
-use discjump_core::terrain::{Edge, Heightfield, Maps};
+use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind};
 
 #[test]
 fn heightfields() {
@@ -39,6 +39,7 @@ fn heightfields() {
     refused(new(&[1.0, 1.0, 1.0, 1.0, 2.0, 1.0], 2, 3, 8.0, [0.0; 2], Edge::Tile), "heights", "column 1");
     refused(new(&[1.0, 2.0, 3.0, 1.0, 2.0, 3.0], 2, 3, 8.0, [0.0; 2], Edge::Tile), "heights", "row 0");
     refused("wrap".parse::<Edge>(), "edge", "\"wrap\"");
+    refused("cubic".parse::<SurfaceKind>(), "surface", "\"cubic\"");
 }
 
 #[test]
@@ -48,4 +49,6 @@ fn pools_of_maps() {
     refused(Maps::new(&[]), "terrains", "none");
     refused(Maps::new(&[map(3, 8.0), map(4, 8.0)]), "terrains", "4 x 3");
     refused(Maps::new(&[map(3, 8.0), map(3, 8.0), map(3, 4.0)]), "terrains", "number 2");
+    let smooth = map(3, 8.0).with_surface(SurfaceKind::Bilinear);
+    refused(Maps::new(&[map(3, 8.0), smooth]), "terrains", "number 1 has \"bilinear\"");
 }

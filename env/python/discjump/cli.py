@@ -12,13 +12,16 @@ from discjump.accuracy.command import accuracy
 from discjump.bench.command import bench
 from discjump.falloff_command import falloff
 from discjump.features.command import features
+from discjump.stress.command import stress
 from discjump.terrain_command import terrain
+from discjump.theory.command import theory
 
 GROUP = "discjump.commands"
 
 TRAINING = {
     "train": "Train an agent.",
     "evaluate": "Judge an agent or a baseline on terrain it never saw.",
+    "tradeoff": "Measure speed against accuracy, and draw it.",
 }
 """Subcommands of the package discjump-training, named here so that one learns where they are."""
 
@@ -60,7 +63,9 @@ main.add_command(accuracy)
 main.add_command(bench)
 main.add_command(falloff)
 main.add_command(features)
+main.add_command(stress)
 main.add_command(terrain)
+main.add_command(theory)
 
 
 def _entries() -> dict[str, EntryPoint]:

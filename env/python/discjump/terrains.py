@@ -13,29 +13,35 @@ from discjump.solids import Solid
 TRAINING_SEEDS = tuple(range(16))
 """Seeds of the default pool."""
 
+SURFACES = ("triangles", "bilinear")
+"""What may lie between the heights; the first is the game's."""
+
 
 @lru_cache(maxsize=64)
-def generated(seed: int, repeating: bool = False) -> Terrain:
-    """`Terrain.raindance(seed, repeating=repeating)`; the 64 used last are kept.
+def generated(seed: int, repeating: bool = False, surface: str = SURFACES[0]) -> Terrain:
+    """`Terrain.raindance(seed, repeating=repeating, surface=surface)`; the 64 used last are kept.
 
     >>> generated(3) is generated(3)
     True
     """
-    return Terrain.raindance(seed, repeating=repeating)
+    if surface == SURFACES[0]:
+        return Terrain.raindance(seed, repeating=repeating)
+    return generated(seed, repeating, SURFACES[0]).with_surface(surface)
 
 
-def pool(seeds: object, repeating: bool = False) -> list[Terrain]:
+def pool(seeds: object, repeating: bool = False, surface: str = SURFACES[0]) -> list[Terrain]:
     """The terrains of `seeds`, in their order.
 
     Args:
         seeds: a non-empty sequence of different integers from 0 to 2**64 - 1.
         repeating: the 512 m repeating cell instead of 2,048 m without repetition.
+        surface: "triangles" or "bilinear".
 
     Raises:
         TypeError: `seeds` is no sequence of integers.
         ValueError: it is empty, has a seed twice or one out of range.
     """
-    return [generated(seed, repeating) for seed in checked_seeds(seeds)]
+    return [generated(seed, repeating, surface) for seed in checked_seeds(seeds)]
 
 
 def checked_seeds(seeds: object) -> tuple[int, ...]:
@@ -60,14 +66,14 @@ def checked_seeds(seeds: object) -> tuple[int, ...]:
 def _reduced(terrain: Terrain) -> tuple[Any, tuple[Any, ...]]:
     """How to make a terrain again: copies and pickles of one have the same bits."""
     if terrain.seed is None:
-        given = (terrain.heights, terrain.square_size, terrain.origin, terrain.edge)
+        given = (terrain.heights, terrain.square_size, terrain.origin, terrain.edge, terrain.surface)
         return _from_heights, (*given, terrain.solids)
     for repeating in (False, True):
-        bare = generated(terrain.seed, repeating)
+        bare = generated(terrain.seed, repeating, terrain.surface)
         if bare.digest() == terrain.digest():
             if bare.solids_digest() == terrain.solids_digest():
-                return generated, (terrain.seed, repeating)
-            return _with_solids, (terrain.seed, repeating, terrain.solids)
+                return generated, (terrain.seed, repeating, terrain.surface)
+            return _with_solids, (terrain.seed, repeating, terrain.surface, terrain.solids)
     raise ValueError(f"terrain: expected what its seed {terrain.seed} generates, got other bits")
 
 
@@ -76,13 +82,14 @@ def _from_heights(
     square_size: float,
     origin: tuple[float, float],
     edge: str,
+    surface: str,
     solids: list[Solid],
 ) -> Terrain:
-    return Terrain.from_heights(heights, square_size, origin, edge).with_solids(solids)
+    return Terrain.from_heights(heights, square_size, origin, edge, surface).with_solids(solids)
 
 
-def _with_solids(seed: int, repeating: bool, solids: list[Solid]) -> Terrain:
-    return generated(seed, repeating).with_solids(solids)
+def _with_solids(seed: int, repeating: bool, surface: str, solids: list[Solid]) -> Terrain:
+    return generated(seed, repeating, surface).with_solids(solids)
 
 
 # gymnasium copies the keyword arguments of an environment, and workers of other processes get them pickled.

@@ -8,6 +8,7 @@
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
     intervals   bootstrap and exact intervals
     model       model files
+    files       written whole or not at all
     baselines   random keys, a scripted skier, one that tacks
     episodes    plays the episodes of a course
     courses     named terrains and episodes

@@ -180,7 +180,7 @@ def _evaluate(
 ) -> None:
     from discjump_training import baselines, picture, report
     from discjump_training import evaluate as judging
-    from discjump_training.model import write_atomically
+    from discjump_training.files import write_atomically
 
     course = COURSES[course_name]
     count = len(course.seeds(episodes))

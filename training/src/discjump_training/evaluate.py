@@ -5,11 +5,13 @@ All policies meet the same episodes, so they are compared pair by pair. An episo
 death counts as 60 s. Intervals are 95% bootstrap intervals over episodes (the success rate's is exact).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from discjump.envs.options import SkiOptions
+from discjump.terrains import SURFACES
 from discjump_training import baselines, intervals, model
 from discjump_training.courses import COURSES, Course
 from discjump_training.episodes import FAILURE_SECONDS, Episodes, Stage
@@ -26,9 +28,12 @@ FIGURES = (
     ("top_speed", "top speed", "m/s", 1),
     ("damage", "damage", "", 3),
 )
-FIDELITY = "authentic"
-#: Ticks per decision of the task; a model that was trained with another is judged with its own, and says so.
+FIDELITY = SkiOptions.fidelity
+#: Ticks per decision of the task; a model that was trained with another time between its decisions is judged
+#: with its own, and says so.
 FRAME_SKIP = SkiOptions.frame_skip
+#: Options that make up the physics of the task, whatever a model was trained in.
+PHYSICS: dict[str, Any] = {"fidelity": FIDELITY, "tick_ms": SkiOptions.tick_ms, "surface": SURFACES[0]}
 #: What two policies' episodes must have in common to be compared pair by pair.
 SHARED = ("start_distance", "terrain", "goals")
 
@@ -93,8 +98,26 @@ def model_path(name: str) -> Path:
     return path / model.BEST if path.is_dir() else path
 
 
+def in_task(trained: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of the task for a model that was trained with `trained`: what it observes stays its own, the
+    physics is the task's, and the time between its decisions stays as near to its own as whole ticks allow.
+
+    >>> in_task({"fidelity": "fast", "tick_ms": 64, "surface": "bilinear", "frame_skip": 2, "landing": False})
+    {'fidelity': 'authentic', 'tick_ms': 32, 'surface': 'triangles', 'frame_skip': 4, 'landing': False}
+    """
+    period = trained.get("tick_ms", SkiOptions.tick_ms) * trained.get("frame_skip", FRAME_SKIP)
+    return {**trained, **PHYSICS, "frame_skip": max(1, round(period / PHYSICS["tick_ms"]))}
+
+
 def judge(
-    name: str, course: Course, episodes: int, *, sampled: bool, threads: int | None, record: int
+    name: str,
+    course: Course,
+    episodes: int,
+    *,
+    sampled: bool,
+    threads: int | None,
+    record: int,
+    at_home: bool = False,
 ) -> Judged:
     """Play a course with one policy.
 
@@ -105,6 +128,7 @@ def judge(
         sampled: models draw their actions instead of taking the likeliest.
         threads: of the simulator.
         record: number of episodes whose paths are kept.
+        at_home: models play in the physics that they were trained in, not in the task's.
 
     Raises:
         TrainingError: if the policy cannot be had or does not fit the environment.
@@ -119,12 +143,12 @@ def judge(
                 f"{name} is neither a baseline ({known}) nor a model file nor the folder of a run"
             )
         ppo = model.load(path)
-        options = model.about(path).get("environment", {}) | {"fidelity": FIDELITY}
-        stage = Stage(course, episodes, options, threads)
+        trained = model.about(path).get("environment", {})
+        stage = Stage(course, episodes, trained if at_home else in_task(trained), threads)
         model.check_spaces(ppo, path, stage.env)
         policy = model.Sampled(ppo, name) if sampled else model.Greedy(ppo, name)
     else:
-        stage = Stage(course, episodes, baselines.OPTIONS | {"fidelity": FIDELITY}, threads)
+        stage = Stage(course, episodes, baselines.OPTIONS | PHYSICS, threads)
         policy = baselines.make(name, stage)
     played = stage.play(policy, record=tuple(range(min(record, episodes))))
     stage.close()

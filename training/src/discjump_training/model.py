@@ -6,7 +6,6 @@ whole or not at all. Opening one runs code that it contains (pickles): open only
 
 import io
 import json
-import os
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from gymnasium.vector import VectorEnv
 from stable_baselines3 import PPO
 
 from discjump_training.errors import ModelError
+from discjump_training.files import write_atomically
 from discjump_training.policy import Actions, Mask, Observations
 
 #: Entry with the recipe and the steps of the model, as JSON.
@@ -25,19 +25,6 @@ ABOUT = "discjump_training.json"
 ENTRIES = {"data", "policy.pth", "policy.optimizer.pth"}
 #: File that holds the best model of a run.
 BEST = "best.zip"
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file so that a crash or a power cut leaves either the old content or the new, never a part."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with temporary.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def save(model: PPO, path: Path, about: dict[str, Any], entries: dict[str, bytes] | None = None) -> None:

@@ -12,7 +12,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from discjump.envs.options import FAN_BEARINGS, FAN_RANGES, REWARD
+from discjump.envs.options import FAN_BEARINGS, FAN_RANGES, REWARD, SkiOptions
+from discjump.terrains import SURFACES
 from discjump_training.courses import COURSES
 from discjump_training.errors import RecipeError
 
@@ -42,7 +43,9 @@ class Environment(Section):
 
     course: str = Field("ski-train-v1", description="course whose terrains are trained on")
     fidelity: str = Field("authentic", description="fidelity tier of the physics")
-    frame_skip: Count = Field(4, description="ticks of 32 ms per decision")
+    tick_ms: Count = Field(SkiOptions.tick_ms, description="length of a tick, milliseconds")
+    surface: str = Field(SURFACES[0], description="what lies between the heights: triangles or bilinear")
+    frame_skip: Count = Field(4, description="ticks per decision")
     fan_bearings: list[float] = Field(
         list(FAN_BEARINGS),
         description="bearings of the fan (rise of the terrain over range, dimensionless), degrees, 0 ahead, "
@@ -65,6 +68,14 @@ class Environment(Section):
     def _fan_is_whole(self) -> Self:
         if bool(self.fan_bearings) != bool(self.fan_ranges):
             raise ValueError("fan_bearings and fan_ranges: either both are empty (no fan) or neither is")
+        return self
+
+    @model_validator(mode="after")
+    def _environment_takes_it(self) -> Self:
+        try:
+            SkiOptions.from_keywords(self.kwargs())
+        except (TypeError, ValueError) as error:
+            raise ValueError(str(error)) from None
         return self
 
     def kwargs(self) -> dict[str, Any]:

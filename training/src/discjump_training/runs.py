@@ -20,8 +20,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from discjump_training import model
 from discjump_training.errors import TrainingError
+from discjump_training.files import write_atomically
 from discjump_training.recipe import Recipe
 
 #: Files that a run may leave behind before its first checkpoint, and the folders they are in.
@@ -140,7 +140,7 @@ def write_curve(path: Path, curve: list[Point]) -> None:
     writer = csv.DictWriter(text, [f.name for f in fields(Point)])
     writer.writeheader()
     writer.writerows(asdict(point) for point in curve)
-    model.write_atomically(path, text.getvalue().encode())
+    write_atomically(path, text.getvalue().encode())
 
 
 def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> None:
@@ -160,4 +160,4 @@ def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> N
         "python": platform.python_version(),
         "machine": f"{platform.machine()}, {os.cpu_count()} cores",
     }
-    model.write_atomically(folder / "run.json", (json.dumps(run, indent=2) + "\n").encode())
+    write_atomically(folder / "run.json", (json.dumps(run, indent=2) + "\n").encode())

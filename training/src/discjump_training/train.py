@@ -32,6 +32,7 @@ import discjump.sb3
 from discjump_training import episodes, model, runs
 from discjump_training.courses import COURSES, run_seed
 from discjump_training.errors import RecipeError, TrainingError
+from discjump_training.files import write_atomically
 from discjump_training.recipe import Recipe
 from discjump_training.runs import Point, Progress
 
@@ -112,7 +113,7 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
                 f"{folder} is trained for {learner.num_timesteps:,} decisions already; "
                 "ask for more with --steps"
             )
-        model.write_atomically(folder / "recipe.toml", recipe.to_toml(help=True).encode())
+        write_atomically(folder / "recipe.toml", recipe.to_toml(help=True).encode())
         watch = Watcher(recipe, folder, progress, env, quiet)
         with stopping_gently(watch):
             learner.learn(left, callback=watch, reset_num_timesteps=False)

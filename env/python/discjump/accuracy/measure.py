@@ -30,7 +30,7 @@ makes of a millimetre. `reference` against itself can be asked for, and must giv
 class Path:
     """Where one batch was after every tick, the start included."""
 
-    #: (ticks + 1, n, 3), m.
+    #: (ticks + 1, n, 3), m; fewer where not every tick was asked for.
     position: Floats
     #: (ticks + 1, n), m/s.
     speed: Floats
@@ -55,22 +55,37 @@ def ticks_of(seconds: float) -> int:
     return round(seconds / TICK)
 
 
-def run(play: Play, tier: str) -> Path:
-    """Play a batch in one tier."""
+def run(play: Play, tier: str, every: int = 1, precision: str | None = None) -> Path:
+    """Play a batch in one tier.
+
+    Args:
+        play: what is played.
+        tier: one of the tiers, or `nudged`.
+        every: how many ticks from one place of the path to the next.
+        precision: "float32" or "float64"; None for the tier's own.
+    """
     nudged = tier == "nudged"
     fidelity = "reference" if nudged else tier
-    sim = Simulator(play.terrain, len(play.position), play.scene, fidelity=fidelity)
+    sim = Simulator(
+        play.terrain,
+        len(play.position),
+        play.scene,
+        fidelity=fidelity,
+        precision=precision,
+        tick_ms=play.tick_ms,
+    )
     state = sim.state()
     for name in ("position", "velocity", "yaw"):
         state[name] = getattr(play, name)
     state["position"][:, 0] += NUDGE if nudged else 0.0
     sim.set_state(state)
     ticks = len(play.inputs)
-    position = np.empty((ticks + 1, *play.position.shape))
+    position = np.empty((ticks // every + 1, *play.position.shape))
     velocity = np.empty_like(position)
     for tick in range(ticks + 1):
-        state = sim.state()
-        position[tick], velocity[tick] = state["position"], state["velocity"]
+        if tick % every == 0:
+            state = sim.state()
+            position[tick // every], velocity[tick // every] = state["position"], state["velocity"]
         if tick < ticks:
             if tick in play.blasts:
                 sim.explode(play.blasts[tick])

@@ -11,6 +11,9 @@ from discjump.simulator import INPUT
 
 Inputs = NDArray[np.void]
 
+TICK_MS = 32
+"""Length of the game's tick, ms: scripts and explosions are written in these."""
+
 
 def held(ticks: int, players: int, **keys: float) -> Inputs:
     """The same keys all the time.
@@ -43,3 +46,40 @@ def bursts(rng: np.random.Generator, inputs: Inputs) -> Inputs:
     sideways = rng.integers(-1, 2, (ticks // 40 + 3, players))
     inputs["strafe"] = np.take_along_axis(sideways, clock // period, axis=0)
     return inputs
+
+
+def resampled(inputs: Inputs, tick_ms: int) -> Inputs:
+    """The same keys, as functions of time, in ticks of another length.
+
+    In shorter ticks every key is held on. A longer tick takes the keys of its beginning and the mean of the
+    turn rates, so that the yaw at its end is the script's; a trigger that is pulled within a tick counts in
+    the next one, since an event cannot act before it happens.
+
+    Args:
+        inputs: (ticks, players) in ticks of `TICK_MS`.
+        tick_ms: a divisor or a multiple of `TICK_MS` that divides the length of the script.
+
+    Raises:
+        ValueError: another tick length.
+
+    >>> inputs = held(4, 1)
+    >>> inputs["turn"][:, 0], inputs["fire"][:, 0] = [1.0, 2.0, 3.0, 4.0], [False, True, False, False]
+    >>> longer = resampled(inputs, 64)
+    >>> longer["turn"][:, 0].tolist(), longer["fire"][:, 0].tolist()
+    ([1.5, 3.5], [False, True])
+    >>> resampled(inputs, 16)["turn"][:, 0].tolist()
+    [1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0]
+    """
+    if tick_ms >= 1 and TICK_MS % tick_ms == 0:
+        return np.repeat(inputs, TICK_MS // tick_ms, axis=0)
+    ticks, players = inputs.shape
+    if tick_ms < 1 or (TICK_MS * ticks) % tick_ms or tick_ms % TICK_MS:
+        raise ValueError(
+            f"tick_ms: expected a divisor of {TICK_MS}, or a multiple of it that divides the script's "
+            f"{TICK_MS * ticks} ms, got {tick_ms}"
+        )
+    of_tick = inputs.reshape(-1, tick_ms // TICK_MS, players)
+    longer = of_tick[:, 0].copy()
+    longer["turn"] = of_tick["turn"].mean(axis=1)
+    longer["fire"][1:] |= of_tick["fire"][:-1, 1:].any(axis=1)
+    return longer

@@ -2,7 +2,7 @@
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import click
@@ -88,25 +88,52 @@ def spread(values: Floats) -> Spread:
     return Spread(median, low, high)
 
 
-def interleave(cases: Iterable[Case], effort: Effort, label: str) -> Times:
-    """Measure every case once a repeat, in the order given; what cannot be measured says why."""
-    times: Times = {}
-    ready: dict[Case, tuple[Ready, int]] = {}
+class Prepared(NamedTuple):
+    """A case that was set up and warmed up."""
+
+    ready: Ready
+    calls: int
+    """Of a repeat."""
+
+
+def prepare(cases: Iterable[Case], effort: Effort) -> dict[Case, Prepared | Unavailable]:
+    """Set every case up once, in the order given; what cannot be measured says why."""
+    made: dict[Case, Prepared | Unavailable] = {}
     for case in dict.fromkeys(cases):
         try:
-            made = case.make()
+            ready = case.make()
         except Unavailable as why:
-            times[case] = why
+            made[case] = why
         else:
-            ready[case] = made, _calls(case, made, effort)
-    taken: dict[Case, list[float]] = {case: [] for case in ready}
-    with click.progressbar(length=effort.repeats * len(ready), label=label) as bar:
-        for _ in range(effort.repeats):
-            for case, (made, calls) in ready.items():
-                taken[case].append(made.time(calls) / calls)
-                bar.update(1)
-    for case, (made, _) in ready.items():
-        times[case] = Timed(np.array(taken[case]), case.units, made.observation, made.lanes)
+            made[case] = Prepared(ready, _calls(case, ready, effort))
+    return made
+
+
+def repeat(
+    prepared: Mapping[Case, Prepared | Unavailable], done: Callable[[int], object]
+) -> dict[Case, float]:
+    """Seconds of one call of each case that can be measured, one after the other; `done` is told each."""
+    seconds = {}
+    for case, made in prepared.items():
+        if isinstance(made, Prepared):
+            seconds[case] = made.ready.time(made.calls) / made.calls
+            done(1)
+    return seconds
+
+
+def interleave(cases: Iterable[Case], effort: Effort, label: str) -> Times:
+    """Measure every case once a repeat, in the order given; what cannot be measured says why."""
+    prepared = prepare(cases, effort)
+    measured = sum(isinstance(made, Prepared) for made in prepared.values())
+    with click.progressbar(length=effort.repeats * measured, label=label) as bar:
+        taken = [repeat(prepared, bar.update) for _ in range(effort.repeats)]
+    times: Times = {}
+    for case, made in prepared.items():
+        if isinstance(made, Prepared):
+            seconds = np.array([one[case] for one in taken])
+            times[case] = Timed(seconds, case.units, made.ready.observation, made.ready.lanes)
+        else:
+            times[case] = made
     return times
 
 

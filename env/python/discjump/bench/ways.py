@@ -165,6 +165,8 @@ class Vector:
     frame_skip: int = 1
     threads: int = 2
     dtype: str = "int64"
+    fidelity: str = "authentic"
+    tick_ms: int = 32
     calls: ClassVar[int | None] = None
 
     @property
@@ -175,7 +177,12 @@ class Vector:
     def make(self) -> Ready:
         """The environments, reset."""
         envs = gymnasium.make_vec(
-            ENV_ID, num_envs=self.num_envs, frame_skip=self.frame_skip, threads=self.threads
+            ENV_ID,
+            num_envs=self.num_envs,
+            frame_skip=self.frame_skip,
+            threads=self.threads,
+            fidelity=self.fidelity,
+            tick_ms=self.tick_ms,
         )
         observations, _ = envs.reset(seed=0)
         actions = random_actions(self.num_envs, np.dtype(self.dtype))

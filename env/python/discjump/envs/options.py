@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from discjump import _check
 from discjump._native import SkiBatch, Terrain
 from discjump.simulator import ARMORS, FIDELITIES, Physics
-from discjump.terrains import TRAINING_SEEDS, checked_seeds, pool
+from discjump.terrains import SURFACES, TRAINING_SEEDS, checked_seeds, pool
 
 REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
 """Default weights: per metre nearer to the beacon, per second, once on arrival."""
@@ -49,7 +49,12 @@ class SkiOptions:
     """Generated terrains repeat a cell of 512 m instead of 2,048 m."""
 
     terrains: Sequence[Terrain] | None = None
-    """Terrains to draw from in place of generated ones, all of one size."""
+    """Terrains to draw from in place of generated ones, all of one size and surface."""
+
+    surface: str | None = None
+    """What lies between the heights of generated terrains: `triangles` (the default) or `bilinear`. Given
+    `terrains` have their own; read, this is theirs.
+    """
 
     fidelity: str = "authentic"
     """Fidelity tier: `reference` (float64), or in float32 `authentic`, `swept`, `fast` or `engine`."""
@@ -107,6 +112,7 @@ class SkiOptions:
         put(self, "terrain_seeds", checked_seeds(self.terrain_seeds))
         put(self, "repeating", _check.flag("repeating", self.repeating))
         put(self, "terrains", _terrains(self.terrains))
+        put(self, "surface", _surface(self.surface, self.terrains))
         put(self, "energy_pack", _check.flag("energy_pack", self.energy_pack))
         if not isinstance(self.physics, Physics):
             raise TypeError(f"physics: expected a discjump.Physics, got {self.physics!r}")
@@ -151,7 +157,9 @@ class SkiOptions:
 
     def pool(self) -> list[Terrain]:
         """The terrains that episodes draw from."""
-        return list(self.terrains) if self.terrains is not None else pool(self.terrain_seeds, self.repeating)
+        if self.terrains is not None:
+            return list(self.terrains)
+        return pool(self.terrain_seeds, self.repeating, self.surface or SURFACES[0])
 
     def batch(self, num_envs: int, autoreset: str, threads: int | None, lanes: int | None = None) -> SkiBatch:
         """The simulator of `num_envs` environments.
@@ -214,6 +222,22 @@ def _terrains(terrains: object) -> tuple[Terrain, ...] | None:
     if not checked:
         raise ValueError("terrains: expected at least one Terrain, got none")
     return tuple(checked)
+
+
+def _surface(surface: str | None, terrains: Sequence[Terrain] | None) -> str:
+    if surface is not None:
+        _check.choice("surface", surface, SURFACES)
+    if terrains is None:
+        return surface or SURFACES[0]
+    first = terrains[0].surface
+    for i, terrain in enumerate(terrains):
+        if terrain.surface != first:
+            raise ValueError(
+                f"terrains[{i}]: expected surface {first!r} like terrains[0], got {terrain.surface!r}"
+            )
+    if surface not in (None, first):
+        raise ValueError(f"surface: expected {first!r}, which the given terrains have, got {surface!r}")
+    return first
 
 
 def _goal_distance(span: object) -> tuple[float, float]:
