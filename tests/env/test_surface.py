@@ -48,7 +48,7 @@ def scipys(heights):
 
 
 def scipys_normals(witness, points, hair):
-    """Of the square that a hair to one side lies in: along x and y it is a straight line from side to side."""
+    """In the square a hair to one side: along x and y the ground is straight from side to side."""
     corner = np.array(ORIGIN) + np.floor((points + 1e-12 * (np.array(hair) - 1) - ORIGIN) / SIZE) * SIZE
     slopes = np.empty_like(points)
     for axis in (0, 1):
