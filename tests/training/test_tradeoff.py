@@ -309,7 +309,7 @@ def test_panels_have_both_speed_and_error(quick):
         (["--sections", "speed,errors,nothing"], "'nothing' is none of speed, instructions, errors"),
         (["--tick-ms", "10"], "'10' is none of 8, 16, 32, 64"),
         (["--tick-ms", ""], "'' is none of 8, 16, 32, 64"),
-        (["--surfaces", "spheres"], "'spheres' is none of triangles"),
+        (["--surfaces", "spheres"], "'spheres' is none of triangles, bilinear"),
         (["--frame-skips", "1,3"], "'3' is none of 1, 2, 4, 8"),
         (["--starts", "3"], "--starts"),
         (["--episodes", "513"], "--episodes"),

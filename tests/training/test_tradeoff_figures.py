@@ -1,5 +1,8 @@
 """What the trade-off makes of its measurements, against numpy, SciPy and brute force."""
 
+import itertools
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,6 +11,7 @@ from hypothesis.extra import numpy as arrays
 from scipy import stats
 
 from discjump.accuracy.measure import Path
+from discjump.terrains import SURFACES
 from discjump_training.errors import TrainingError
 from discjump_training.tradeoff import apex, paths, skiers
 from discjump_training.tradeoff.grid import TICK_MS, TRUTH, Config, Plan
@@ -72,13 +76,14 @@ def test_figures_are_numpys():
 @pytest.mark.parametrize("situation", ["ski", "blast", "bridge"])
 def test_the_reference_has_no_error_to_itself(situation):
     made = paths.Paths(SMALL)
-    for tick_ms in TICK_MS:
-        rows = {row["error"]: row for row in paths.compared(made, situation, Config(TRUTH.tier, tick_ms))}
+    for tick_ms, surface in itertools.product(TICK_MS, SURFACES):
+        config = Config(TRUTH.tier, tick_ms, surface)
+        rows = {row["error"]: row for row in paths.compared(made, situation, config)}
         for at in rows["own"]["at"]:
             assert set(at["position"].values()) == {0.0}
         assert {of["share"] for of in rows["own"]["until"].values()} == {0.0}
-        # Another tick is another game.
-        assert (rows["truth"]["at"][-1]["position"]["median"] > 0.01) == (tick_ms != TRUTH.tick_ms)
+        # Another tick or surface is another game.
+        assert (rows["truth"]["at"][-1]["position"]["largest"] > 0.01) == (config != TRUTH)
 
 
 def test_movement_and_digits_share_out_the_error():
@@ -107,6 +112,15 @@ def test_paths_are_sampled_at_the_same_times():
         drop = fall[0, :, 2] - fall[1, :, 2]
         exact = drop - 0.5 * 20.0 * 0.064 * tick_ms / 1000
         np.testing.assert_allclose(exact, falls[0][0, :, 2] - falls[0][1, :, 2] - 0.00512, atol=1e-9)
+
+
+def test_nobody_starts_in_the_other_surface():
+    made = paths.Paths(replace(SMALL, starts=64))
+    truth = made.of("steep", TRUTH).position[0]
+    bilinear = made.of("steep", replace(TRUTH, surface="bilinear")).position[0]
+    lifted = bilinear[:, 2] - truth[:, 2]
+    assert 0.0 == lifted.min() < lifted.max() < 10.0
+    np.testing.assert_array_equal(bilinear[:, :2], truth[:, :2])
 
 
 @pytest.mark.parametrize("tick_ms", TICK_MS)

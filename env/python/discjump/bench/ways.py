@@ -58,6 +58,7 @@ class Players:
     fidelity: str = "authentic"
     precision: str | None = None
     tick_ms: int = 32
+    surface: str = "triangles"
     armor: str = "light"
     ticks: int = 4
     square: tuple[tuple[float, float], float] = WHOLE
@@ -74,7 +75,7 @@ class Players:
 
     def make(self) -> Ready:
         """The simulator and its start."""
-        terrain = generated(SEED)
+        terrain = generated(SEED, surface=self.surface)
         if self.solids is not None:
             terrain = terrain.with_solids(towers(terrain, self.solids))
         with offered(self.lanes):
@@ -167,6 +168,7 @@ class Vector:
     dtype: str = "int64"
     fidelity: str = "authentic"
     tick_ms: int = 32
+    surface: str = "triangles"
     calls: ClassVar[int | None] = None
 
     @property
@@ -183,6 +185,7 @@ class Vector:
             threads=self.threads,
             fidelity=self.fidelity,
             tick_ms=self.tick_ms,
+            surface=self.surface,
         )
         observations, _ = envs.reset(seed=0)
         actions = random_actions(self.num_envs, np.dtype(self.dtype))

@@ -9,8 +9,9 @@ from typing import Any
 
 import click
 
+from discjump.terrains import SURFACES
 from discjump_training.cli import INTERRUPTED, clean_errors
-from discjump_training.tradeoff.grid import FRAME_SKIPS, QUICK, SURFACES, TICK_MS, TIERS, Plan
+from discjump_training.tradeoff.grid import FRAME_SKIPS, QUICK, TICK_MS, TIERS, Plan
 
 OUT = Path("runs/tradeoff")
 SECTIONS = ("speed", "instructions", "errors", "outcomes", "apex", "transfer", "training")

@@ -6,10 +6,10 @@ from typing import Any
 
 from discjump.accuracy.scripts import TICK_MS as GAME_TICK_MS
 from discjump.simulator import FIDELITIES
+from discjump.terrains import SURFACES
 
 TICK_MS = (8, 16, 32, 64)
 TIERS = FIDELITIES
-SURFACES = ("triangles",)
 FRAME_SKIPS = (1, 2, 4, 8)
 DECISION_MS = 128
 """Time between two decisions of the task, 4 ticks of 32 ms: what outcomes and transfer keep."""

@@ -111,5 +111,6 @@ def _case(config: Config, lanes: int, plan: Plan) -> Players:
         lanes,
         fidelity=config.tier,
         tick_ms=config.tick_ms,
+        surface=config.surface,
         ticks=DECISION_MS // config.tick_ms,
     )

@@ -63,7 +63,8 @@ class Paths:
         if config in self._kept:
             return self._kept[config]
         every = SAMPLE_MS // config.tick_ms
-        paths = [run(play.at(config.tick_ms), config.tier, every, precision) for play in self._plays]
+        plays = [_in(config, play) for play in self._plays]
+        paths = [run(play, config.tier, every, precision) for play in plays]
         path = Path(
             np.concatenate([one.position for one in paths], axis=1),
             np.concatenate([one.speed for one in paths], axis=1),
@@ -71,6 +72,14 @@ class Paths:
         if config.tier == TRUTH.tier:
             self._kept[config] = path
         return path
+
+
+def _in(config: Config, play: Play) -> Play:
+    """A play, written for triangles and the game's tick, on another surface and in another tick."""
+    terrain = play.terrain
+    if config.surface != terrain.surface:
+        play = play.on(terrain.with_surface(config.surface))
+    return play.at(config.tick_ms)
 
 
 def compared(paths: Paths, situation: str, config: Config) -> list[dict[str, Any]]:

@@ -3,7 +3,8 @@
 from typing import Any
 
 from discjump.accuracy.report import number
-from discjump_training.tradeoff.grid import DEFAULT, LEFT_OUT, SURFACES, TRUTH, Config
+from discjump.terrains import SURFACES
+from discjump_training.tradeoff.grid import DEFAULT, LEFT_OUT, TRUTH, Config
 from discjump_training.tradeoff.pareto import unbeaten
 from discjump_training.tradeoff.sections import SECTIONS, panels
 from discjump_training.tradeoff.speed import digits, speeds

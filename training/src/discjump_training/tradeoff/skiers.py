@@ -21,12 +21,8 @@ ALIKE_M = 0.01
 
 def play(skier: str, config: Config, frame_skip: int, count: int) -> dict[str, Any]:
     """What happened, episode by episode."""
-    options = {
-        **baselines.OPTIONS,
-        "fidelity": config.tier,
-        "tick_ms": config.tick_ms,
-        "frame_skip": frame_skip,
-    }
+    physics = {"fidelity": config.tier, "tick_ms": config.tick_ms, "surface": config.surface}
+    options = {**baselines.OPTIONS, **physics, "frame_skip": frame_skip}
     stage = Stage(HELD_OUT, count, options)
     played = stage.play(baselines.make(skier, stage))
     stage.close()

@@ -90,6 +90,7 @@ def cases(plan: Plan) -> dict[tuple[Any, ...], Players | Vector]:
                 threads,
                 fidelity=config.tier,
                 tick_ms=config.tick_ms,
+                surface=config.surface,
                 ticks=DECISION_MS // config.tick_ms,
             )
         for frame_skip in plan.decisions(config.tick_ms):
@@ -99,6 +100,7 @@ def cases(plan: Plan) -> dict[tuple[Any, ...], Players | Vector]:
                 _threads()[-1],
                 fidelity=config.tier,
                 tick_ms=config.tick_ms,
+                surface=config.surface,
             )
     return named
 
