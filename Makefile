@@ -139,12 +139,15 @@ stubtest: setup
 
 # ---------------------------------------------------------------------------------------------- the rest
 
-.PHONY: instructions instructions-anew
+.PHONY: instructions instructions-anew features
 instructions: setup ## Instructions of a tick and of a step, held to the committed counts
 	$(PY) .ci/instructions.py
 
 instructions-anew: setup ## The same, committed anew
 	$(PY) .ci/instructions.py --write
+
+features: setup ## That scenes pay nothing for what they leave out: against builds without it
+	$(PY) .ci/features.py
 
 .PHONY: stress stress-long fuzz
 stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress

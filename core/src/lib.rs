@@ -17,12 +17,23 @@
 //! random                    counted draws, used by terrain, task and batch
 //! float_environment         rounding as the language has it, whatever the caller's thread was set to
 //! ```
+//!
+//! Cargo features, all on by default: one for each public scene, and one for each thing that a scene can
+//! model ([`scene::FEATURES`] but `flags`, which no scene has yet). Without one of the latter its code is not
+//! compiled, and a [`scene::Scene`] that models it does not compile either.
+
+// What serves only a feature that is left out is idle then.
+#![cfg_attr(
+    not(all(feature = "ski", feature = "sandbox", feature = "disc_jump", feature = "mission")),
+    allow(dead_code, unused_imports, unused_macros, unused_mut, unused_variables, clippy::needless_return)
+)]
 
 pub mod armor;
 pub mod arms;
 pub mod batch;
 pub mod blast;
 pub mod error;
+#[cfg(feature = "discs")]
 pub mod flight;
 mod float_environment;
 pub mod forces;
@@ -34,6 +45,10 @@ pub mod random;
 pub mod real;
 pub mod rules;
 pub mod scene;
+#[cfg(feature = "solids")]
+pub mod solids;
+#[cfg(not(feature = "solids"))]
+#[path = "no_solids.rs"]
 pub mod solids;
 pub mod task;
 pub mod terrain;

@@ -93,13 +93,35 @@ pub struct Listed {
     pub leaves_out: Vec<&'static str>,
 }
 
-/// Every scene.
+/// The public names, those of scenes included that this build leaves out: each is its cargo feature as well.
+pub const NAMES: [&str; 4] = ["ski", "sandbox", "disc_jump", "mission"];
+
+/// Every scene of this build.
 #[must_use]
-pub fn scenes() -> [Listed; 4] {
+pub fn scenes() -> Vec<Listed> {
     fn listed<S: Scene>() -> Listed {
         Listed { name: S::NAME, models: S::models(), leaves_out: S::leaves_out() }
     }
-    [listed::<Ski>(), listed::<Sandbox>(), listed::<DiscJump>(), listed::<Mission>()]
+    vec![
+        #[cfg(feature = "ski")]
+        listed::<Ski>(),
+        #[cfg(feature = "sandbox")]
+        listed::<Sandbox>(),
+        #[cfg(feature = "disc_jump")]
+        listed::<DiscJump>(),
+        #[cfg(feature = "mission")]
+        listed::<Mission>(),
+    ]
+}
+
+/// That a feature is in the build if a scene models it.
+macro_rules! built {
+    ($modeled:expr, $feature:literal) => {
+        assert!(
+            cfg!(feature = $feature) || !$modeled,
+            concat!("the scene models ", $feature, ", and the cargo feature of that name is off")
+        )
+    };
 }
 
 /// The list of what a scene models.
@@ -124,6 +146,18 @@ pub trait Scene: Copy + Debug + Send + Sync + 'static {
     const BLAST: bool;
     /// Whether solids stand in the way.
     const SOLIDS: bool;
+
+    /// Does not compile where the scene models what this build leaves out.
+    const BUILT: () = {
+        built!(Self::JUMP, "jump");
+        built!(Self::Jet::<f32>::MODELED, "jet");
+        built!(Self::Energy::<f32>::MODELED, "energy");
+        built!(Self::Damage::<f32>::MODELED, "landing_damage");
+        built!(Self::Arms::<f32>::MODELED, "discs");
+        built!(Self::BLAST, "blast");
+        built!(Self::SOLIDS, "solids");
+        built!(Self::BumpLimits::<f32>::MODELED, "bump_limits");
+    };
 
     /// The features that the scene models.
     #[must_use]
@@ -192,6 +226,7 @@ macro_rules! scene {
     };
 }
 
+#[cfg(feature = "ski")]
 scene! {
     /// Skiing over bare terrain.
     Ski = "ski" {
@@ -200,6 +235,7 @@ scene! {
     }
 }
 
+#[cfg(feature = "sandbox")]
 scene! {
     /// Physics tests and notebooks: everything that moves a player on bare terrain, and no task.
     Sandbox = "sandbox" {
@@ -208,6 +244,7 @@ scene! {
     }
 }
 
+#[cfg(feature = "disc_jump")]
 scene! {
     /// Disc jumping over bare terrain: everything that moves a player, and his launcher.
     DiscJump = "disc_jump" {
@@ -216,6 +253,7 @@ scene! {
     }
 }
 
+#[cfg(feature = "mission")]
 scene! {
     /// The whole game's movement: as [`DiscJump`], with solids.
     Mission = "mission" {

@@ -5,9 +5,14 @@ mod common;
 
 use common::lab::*;
 use common::*;
+use discjump_core::armor::LIGHT;
+use discjump_core::input::Input;
+use discjump_core::movement::{Engine, Movement, Sliced};
 use discjump_core::player::{Contact, Player, fields};
+use discjump_core::random::{Purpose, bits};
 use discjump_core::real::{Real, Scalar};
-use discjump_core::scene::{Absent, Sandbox, Scene, Ski};
+use discjump_core::rules::{Model, Physics, Rules};
+use discjump_core::scene::{Absent, Has, Sandbox, Scene, Ski};
 
 /// Walking and falling.
 #[derive(Clone, Copy, Debug)]
@@ -86,4 +91,73 @@ fn check<T: Scalar>() {
 fn the_kernel_plays_what_is_left() {
     check::<f32>();
     check::<f64>();
+}
+
+/// Everything that moves a player over bare terrain but what a constant or a group leaves out.
+macro_rules! without {
+    ($scene:ident: $jump:literal, $jet:ty, $energy:ty) => {
+        #[derive(Clone, Copy, Debug)]
+        struct $scene;
+
+        impl Scene for $scene {
+            const NAME: &'static str = "one's own";
+            const JUMP: bool = $jump;
+            const BLAST: bool = false;
+            const SOLIDS: bool = false;
+            type BumpLimits<R: Real> = Absent;
+            type Arms<R: Real> = Absent;
+            type Contact<R: Real> = Has<Contact<R>>;
+            type Jet<R: Real> = $jet;
+            type Energy<R: Real> = $energy;
+            type Damage<R: Real> = Absent;
+        }
+    };
+}
+
+without!(NoJump: false, Has<R::Mask>, Has<R>);
+without!(NoJet: true, Absent, Has<R>);
+without!(NoEnergy: true, Has<R::Mask>, Absent);
+
+/// `S` with all keys at random moves as the fullest scene does whose player is changed by `change` before each
+/// tick, and whose keys are.
+fn moves_as<S: Scene, M: Movement>(
+    model: Model,
+    change: impl Fn(&mut Player<Sandbox, f32>, &mut Input<f32>),
+) {
+    let lab = Lab::<f32>::of(model, &rolling(), Physics::default());
+    let mut own: Player<S, f32> = lab.player([10.0, 20.0, 60.0], [5.0, 1.0, 0.0]);
+    let mut full: Player<Sandbox, f32> = lab.player([10.0, 20.0, 60.0], [5.0, 1.0, 0.0]);
+    for tick in 0..600u64 {
+        let draw = bits(9, tick / 7, Purpose::Start, 0);
+        let mut keys =
+            input((draw % 3) as i8 - 1, 1, draw / 3 % 2 == 0, draw / 6 % 3 > 0, (draw / 18 % 5) as i8 - 2);
+        own = lab.tick_as::<M, S>(&own, &keys);
+        change(&mut full, &mut keys);
+        full = lab.tick_as::<M, Sandbox>(&full, &keys);
+        assert_eq!(
+            floats(own.position),
+            floats(full.position),
+            "{}, tick {tick}",
+            std::any::type_name::<S>()
+        );
+        assert_eq!(
+            floats(own.velocity),
+            floats(full.velocity),
+            "{}, tick {tick}",
+            std::any::type_name::<S>()
+        );
+    }
+}
+
+/// What stands in for a scene without a feature where there is none: a key that is not pressed, a full tank.
+#[test]
+fn a_feature_can_be_left_out_by_the_keys_or_the_state() {
+    fn check<M: Movement>(model: Model) {
+        moves_as::<NoJump, M>(model, |_, keys| keys.jump = false);
+        moves_as::<NoJet, M>(model, |_, keys| keys.jet = false);
+        let tank = Rules::<f32>::new(model, &LIGHT, false, 32, Physics::default()).max_energy;
+        moves_as::<NoEnergy, M>(model, |player, _| player.energy = Has(tank));
+    }
+    check::<Sliced>(Model::Article);
+    check::<Engine>(Model::Engine);
 }

@@ -7,7 +7,7 @@ import numpy as np
 from click.testing import CliRunner
 
 import discjump
-from discjump.bench import instructions
+from discjump.bench import instructions, scenes
 from discjump.cli import main
 from discjump.simulator import SIMULATOR_FIDELITIES
 
@@ -31,6 +31,11 @@ def test_every_scene_and_tier_is_listed_and_timed(tmp_path: Path) -> None:
     assert counts == [10, 1000]
     for scene in discjump.SCENES.values():
         assert f"| {scene.name} | {', '.join(scene.models)} |" in result.output
+
+
+def test_the_page_lists_the_scenes_as_they_are() -> None:
+    page = Path(__file__).parents[2] / "core" / "docs" / "scenes.md"
+    assert scenes.lists() in page.read_text()
 
 
 def test_a_scene_stores_nothing_of_what_it_leaves_out() -> None:

@@ -46,9 +46,10 @@ impl<T: Scalar> Stage<'_, T> {
         let mut passed = [R::Mask::splat(false); MOST_BLOCKS];
         // Who is near a solid makes the whole tick anew, alone; the other lanes never notice.
         let mut near = [R::Mask::splat(false); MOST_BLOCKS];
-        let mut saved = Vec::new();
+        let mut saved: Vec<Body<S, R>> = Vec::new();
         for (k, (body, input)) in bodies.iter_mut().zip(inputs).enumerate() {
             self.aim(body, input);
+            #[cfg(feature = "solids")]
             if S::SOLIDS {
                 near[k] = self.near_solids(body);
                 if near[k].any() {
@@ -72,6 +73,7 @@ impl<T: Scalar> Stage<'_, T> {
                 }
                 self.land(body, &self.surface);
             }
+            #[cfg(feature = "solids")]
             if alone && let Some(before) = saved.next() {
                 for lane in (0..R::LANES).filter(|&lane| near[k].lane(lane)) {
                     let mut one = before.lane(lane);

@@ -3,6 +3,7 @@
 mod alone;
 mod codec;
 mod crowd;
+#[cfg(feature = "ski")]
 mod environment;
 mod neighbourhood;
 mod pool;
@@ -11,6 +12,7 @@ mod simulator;
 mod snapshot;
 mod stage;
 
+#[cfg(feature = "ski")]
 pub use environment::{
     Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
 };

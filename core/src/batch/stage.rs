@@ -3,7 +3,10 @@
 
 use super::neighbourhood::{Neighbourhood, Stand};
 use crate::arms::{Arms, Arsenal, Projectile};
-use crate::blast::{Explosive, body_points, coverage_on_terrain, meets, seen_from, strike};
+use crate::blast::Explosive;
+#[cfg(feature = "blast")]
+use crate::blast::{body_points, coverage_on_terrain, meets, seen_from, strike};
+#[cfg(feature = "discs")]
 use crate::flight::{fire, fly};
 use crate::input::Input;
 use crate::movement::{Movement, Obstacles};
@@ -136,12 +139,17 @@ impl<'a, T: Scalar> Stage<'a, T> {
             self.advance::<S, M, T, _>(&mut bodies[me].player, velocity, &world);
             stands[me] = Stand::of(&bodies[me].player.place());
         }
+        #[cfg(feature = "discs")]
         for (me, body) in bodies.iter_mut().enumerate() {
             let (map, world) = (body.player.map, self.reachable(body, stands, me));
             if let Some(arms) = body.arms.as_mut() {
                 fly(arms, map, &world, self.arsenal);
             }
         }
+        if !S::BLAST {
+            return;
+        }
+        #[cfg(feature = "blast")]
         for shooter in 0..bodies.len() {
             let Some(slots) = bodies[shooter].arms.as_ref().map(|arms| arms.slots) else { return };
             for shot in slots.iter().filter(|shot| shot.burst()) {
@@ -173,6 +181,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
     #[inline(always)]
     pub(super) fn aim<S: Scene, R: Real<Scalar = T>>(&self, body: &mut Body<S, R>, input: &Input<R>) {
         look(&mut body.player, input, self.rules);
+        #[cfg(feature = "discs")]
         if let Some(arms) = body.arms.as_mut() {
             fire(arms, &body.player, input.fire, self.arsenal);
         }
@@ -206,16 +215,21 @@ impl<'a, T: Scalar> Stage<'a, T> {
     ) {
         self.wrap(&mut body.player);
         let Some(arms) = body.arms.as_mut() else { return };
+        #[cfg(feature = "discs")]
         fly(arms, body.player.map, world, self.arsenal);
-        for shot in &arms.slots {
-            let burst = shot.burst();
-            if burst.any() {
-                self.suffer_alone(&mut body.player, shot, burst);
+        #[cfg(feature = "blast")]
+        if S::BLAST {
+            for shot in &arms.slots {
+                let burst = shot.burst();
+                if burst.any() {
+                    self.suffer_alone(&mut body.player, shot, burst);
+                }
             }
         }
     }
 
     /// The shooter's own bursts, where he is alone.
+    #[cfg(feature = "blast")]
     #[inline(always)]
     fn suffer_alone<S: Scene, R: Real<Scalar = T>>(
         &self,
@@ -240,6 +254,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
     }
 
     /// What a burst does to one player of the world.
+    #[cfg(feature = "blast")]
     fn suffer<S: Scene>(&self, p: &mut Player<S, T>, shot: &Projectile<T>, world: &Neighbourhood<'_, T>) {
         let at = seen_from(p, &shot.place(p.map), &self.surface);
         let eye = at + shot.axis * T::from_f64(LIFTED);
@@ -247,6 +262,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
     }
 
     /// What an explosion at `at`, seen from `eye`, does to one player; both in his local frame, m.
+    #[cfg(feature = "blast")]
     pub(super) fn explode<S: Scene>(
         &self,
         p: &mut Player<S, T>,

@@ -21,6 +21,7 @@ pub fn bounce<S: Scene, R: Real>(
     rules: &Rules<R::Scalar>,
 ) {
     let impact = -p.velocity.dot(normal);
+    #[cfg(feature = "landing_damage")]
     if S::Damage::<R>::MODELED {
         let excess = (impact - R::lit(armor::LANDING_FREE_SPEED)).max(R::zero());
         let damage = p.damage.get(R::zero());

@@ -235,6 +235,7 @@ impl<S: Scene, R: Real> Player<S, R> {
     /// Counts a tick that the bump limit ended.
     #[inline(always)]
     pub fn count_bump_limit(&mut self, exhausted: R::Mask) {
+        #[cfg(feature = "bump_limits")]
         if S::BumpLimits::<R>::MODELED {
             let count = self.bump_limits.get(R::Int::splat(0));
             let more = (count + R::Int::splat(1)).clamp(0, MOST_BUMP_LIMITS);

@@ -18,12 +18,17 @@ pub(super) fn push<S: Scene, R: Real>(
     let wish = forces::wish(input.forward, input.strafe, p.yaw, rules);
     let mut contact = p.contact();
     let energy = p.energy.get(R::splat(rules.max_energy));
-    let burn = if S::Jet::<R>::MODELED {
-        forces::jets_burn(input.jet, p.jetting.get(R::Mask::splat(false)), energy, rules)
-    } else {
-        R::Mask::splat(false)
-    };
+    let mut burn = R::Mask::splat(false);
+    #[cfg(feature = "jet")]
+    if S::Jet::<R>::MODELED {
+        burn = input.jet;
+        #[cfg(feature = "energy")]
+        if S::Energy::<R>::MODELED {
+            burn = forces::jets_burn(input.jet, p.jetting.get(R::Mask::splat(false)), energy, rules);
+        }
+    }
 
+    #[cfg(feature = "jump")]
     if S::JUMP {
         let grace = R::Int::splat(armor::JUMP_GRACE_MS);
         let jumps = input.jump.and(contact.age.lt(grace));
@@ -35,12 +40,14 @@ pub(super) fn push<S: Scene, R: Real>(
     p.crawled = p.velocity.length().lt(R::lit(armor::CRAWL_SPEED));
 
     let mut gain = V3::new(R::zero(), R::zero(), R::splat(rules.fall));
+    #[cfg(feature = "jet")]
     if S::Jet::<R>::MODELED {
         // The age is the one after this tick's jump: a jump turns the jets sideways at once.
         let recent = contact.age.lt(R::Int::splat(armor::JUMP_GRACE_MS));
         let thrust = forces::jet(p.velocity, &wish, recent, rules);
         gain = V3::select(burn, gain + thrust, gain);
     }
+    #[cfg(feature = "energy")]
     if S::Energy::<R>::MODELED {
         let drain = R::select(burn, R::splat(rules.drain), R::zero());
         let left = energy + R::splat(rules.recharge) - drain;

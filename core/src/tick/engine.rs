@@ -18,6 +18,7 @@ pub(super) fn push<S: Scene, R: Real>(
     let wish = forces::engine_wish(input.forward, input.strafe, p.yaw, rules);
     let mut contact = p.contact();
     let grace = R::Int::splat(armor::ENGINE_JUMP_GRACE);
+    #[cfg(feature = "jump")]
     if S::JUMP {
         let jumps = input.jump.and(contact.age.lt(grace));
         let jumped = p.velocity + forces::jump(contact.normal, &wish, rules);
@@ -31,14 +32,20 @@ pub(super) fn push<S: Scene, R: Real>(
     let energy = (p.energy.get(full) + R::splat(rules.pack_recharge)).min(full);
     let mut gain = V3::new(R::zero(), R::zero(), R::splat(rules.fall));
     let mut burn = R::Mask::splat(false);
+    #[cfg(feature = "jet")]
     if S::Jet::<R>::MODELED {
-        burn = forces::jets_burn(input.jet, p.jetting.get(burn), energy, rules);
+        burn = input.jet;
+        #[cfg(feature = "energy")]
+        if S::Energy::<R>::MODELED {
+            burn = forces::jets_burn(input.jet, p.jetting.get(R::Mask::splat(false)), energy, rules);
+        }
         // The tick of a jump still counts as recent: sideways thrust comes one tick later.
         let recent = grace.lt(contact.age).not();
         let thrust = forces::jet(p.velocity, &wish, recent, rules);
         gain = V3::select(burn, gain + thrust, gain);
     }
     p.jetting.set(burn);
+    #[cfg(feature = "energy")]
     if S::Energy::<R>::MODELED {
         let drain = R::select(burn, R::splat(rules.drain), R::zero());
         let left = energy - drain + (R::splat(rules.recharge) - R::splat(rules.pack_recharge));

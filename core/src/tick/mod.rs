@@ -78,6 +78,7 @@ pub fn push<S: Scene, M: Movement, R: Real>(
     input: &Input<R>,
     rules: &Rules<R::Scalar>,
 ) -> V3<R> {
+    const { S::BUILT }
     match M::MODEL {
         Model::Article => article::push(p, input, rules),
         Model::Engine => engine::push(p, input, rules),

@@ -8,12 +8,13 @@
     envs        gymnasium environments; importing discjump registers their ids
     sb3         stable-baselines3 adapter (import discjump.sb3)
     accuracy    how far the fidelity tiers stray from `reference`
+    features    what leaving a feature of a scene out changes
     theory      the simulator against closed forms
     stress      whether the simulator stands its extremes
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, theory, stress, sb3 -> envs -> terrains, simulator, explosions ->
-_native.
+Arrows point down only: cli -> accuracy, features, theory, stress, sb3 -> envs -> terrains, simulator,
+explosions -> _native.
 """
 
 from importlib.metadata import version

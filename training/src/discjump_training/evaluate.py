@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from stable_baselines3 import PPO
+
 from discjump.envs.options import SkiOptions
 from discjump.terrains import SURFACES
 from discjump_training import baselines, intervals, model
@@ -136,16 +138,7 @@ def judge(
     is_model = name not in baselines.NAMES
     policy: Policy
     if is_model:
-        path = model_path(name)
-        if not path.exists():
-            known = ", ".join(baselines.NAMES)
-            raise ModelError(
-                f"{name} is neither a baseline ({known}) nor a model file nor the folder of a run"
-            )
-        ppo = model.load(path)
-        trained = model.about(path).get("environment", {})
-        stage = Stage(course, episodes, trained if at_home else in_task(trained), threads)
-        model.check_spaces(ppo, path, stage.env)
+        stage, ppo = on_stage(model_path(name), course, episodes, threads=threads, at_home=at_home)
         policy = model.Sampled(ppo, name) if sampled else model.Greedy(ppo, name)
     else:
         stage = Stage(course, episodes, baselines.OPTIONS | PHYSICS, threads)
@@ -159,6 +152,31 @@ def judge(
         for key, *_ in FIGURES
     }
     return Judged(policy.name, policy.note, is_model, played, figures, stage.frame_skip)
+
+
+def on_stage(
+    path: Path, course: Course, episodes: int, *, threads: int | None, at_home: bool = False
+) -> tuple[Stage, PPO]:
+    """A model and the environments that it is judged in.
+
+    Args:
+        path: of the model file.
+        course: which episodes.
+        episodes: how many of them.
+        threads: of the simulator.
+        at_home: in the physics that it was trained in, not in the task's.
+
+    Raises:
+        TrainingError: if the model cannot be had or does not fit the environment.
+    """
+    if not path.exists():
+        known = ", ".join(baselines.NAMES)
+        raise ModelError(f"{path} is neither a baseline ({known}) nor a model file nor the folder of a run")
+    ppo = model.load(path)
+    trained = model.about(path).get("environment", {})
+    stage = Stage(course, episodes, trained if at_home else in_task(trained), threads)
+    model.check_spaces(ppo, path, stage.env)
+    return stage, ppo
 
 
 def level(name: str, threads: int | None) -> float:

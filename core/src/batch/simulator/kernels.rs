@@ -7,7 +7,15 @@ use crate::movement::{Anyway, Engine, Fast, Movement, Sliced, Swept};
 #[cfg(target_arch = "x86_64")]
 use crate::real::lanes::{F32x8, F32x16, Two};
 use crate::real::lanes::{Width, lane_width};
-use crate::scene::{DiscJump, Mission, Sandbox, Scene, Ski, scenes};
+#[cfg(feature = "disc_jump")]
+use crate::scene::DiscJump;
+#[cfg(feature = "mission")]
+use crate::scene::Mission;
+#[cfg(feature = "sandbox")]
+use crate::scene::Sandbox;
+#[cfg(feature = "ski")]
+use crate::scene::Ski;
+use crate::scene::{NAMES, Scene, scenes};
 
 /// The tier that is float64 by itself.
 pub(super) const REFERENCE: &str = "reference";
@@ -20,10 +28,18 @@ impl SimulatorSetup<'_> {
     /// Names the argument that is out of range or unknown, with what was expected.
     pub fn build(&self) -> Result<Box<dyn Bodies>, InputError> {
         match self.scene {
+            #[cfg(feature = "ski")]
             "ski" => self.ski(),
+            #[cfg(feature = "sandbox")]
             "sandbox" => self.tier::<Sandbox>(),
+            #[cfg(feature = "disc_jump")]
             "disc_jump" => self.tier::<DiscJump>(),
+            #[cfg(feature = "mission")]
             "mission" => self.tier::<Mission>(),
+            left_out if NAMES.contains(&left_out) => refuse!(
+                "scene: expected one of this build, which leaves {left_out:?} out: it needs the cargo feature \
+                 {left_out:?} of discjump-core"
+            ),
             other => {
                 let names: Vec<_> = scenes().iter().map(|scene| format!("{:?}", scene.name)).collect();
                 refuse!("scene: expected one of {}, got {other:?}", names.join(", "))
@@ -31,7 +47,28 @@ impl SimulatorSetup<'_> {
         }
     }
 
+    /// Builds the simulator of a scene of one's own in float32 with so many lanes, as [`SimulatorSetup::build`] does;
+    /// scene, tier and lanes of the setup are not asked for, only named in snapshots.
+    ///
+    /// # Errors
+    /// Names the argument that is out of range or unknown, with what was expected; lanes are 1, and 8 or 16
+    /// where the processor has them.
+    pub fn build_own<S: Scene, M: Movement, const LANES: usize>(
+        &self,
+    ) -> Result<Box<dyn Bodies>, InputError> {
+        lane_width(Some(LANES), self.players)?;
+        match LANES {
+            1 => self.kernel::<S, M, f32>(),
+            #[cfg(target_arch = "x86_64")]
+            8 => self.kernel::<S, M, F32x8>(),
+            #[cfg(target_arch = "x86_64")]
+            16 => self.kernel::<S, M, F32x16>(),
+            other => refuse!("lanes: expected 1, 8 or 16 for a scene of one's own, got {other}"),
+        }
+    }
+
     /// The one scene with a tier that has two registers.
+    #[cfg(feature = "ski")]
     fn ski(&self) -> Result<Box<dyn Bodies>, InputError> {
         #[cfg(target_arch = "x86_64")]
         if self.fidelity == "authentic" && !self.double()? && self.width()? == Width::ThirtyTwo {

@@ -3,6 +3,7 @@
 use super::super::neighbourhood::Stand;
 use super::Simulator;
 use super::setup::find_weapon;
+#[cfg(feature = "blast")]
 use crate::blast::seen_from;
 use crate::error::{InputError, refuse};
 use crate::float_environment::DefaultFloats;
@@ -57,6 +58,13 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         if !S::BLAST {
             refuse!("explode: the scene {:?} models no explosions", S::NAME);
         }
+        #[cfg(feature = "blast")]
+        self.explode_checked(points, weapon)?;
+        Ok(())
+    }
+
+    #[cfg(feature = "blast")]
+    fn explode_checked(&mut self, points: &[[f64; 3]], weapon: &str) -> Result<(), InputError> {
         let explosive = find_weapon(weapon)?.explosive.rounded::<R::Scalar>();
         if points.len() != self.count {
             refuse!("points: expected {} rows, got {}", self.count, points.len());

@@ -77,32 +77,43 @@ def _calls(case: Case, asked: int | None) -> int:
 
 def _run(work: Sequence[tuple[Case, int]], progress: Callable[[int], object]) -> list[int]:
     """Instructions from each mark to the next."""
+    with tempfile.NamedTemporaryFile(prefix="discjump-") as cases:
+        pickle.dump(work, cases)
+        cases.flush()
+        words = [sys.executable, "-m", "discjump.bench.counted", cases.name]
+        return marked(words, lambda line: progress(1))
+
+
+def marked(words: Sequence[str], said: Callable[[str], object]) -> list[int]:
+    """Instructions of a command from its beginning to its first call of `getppid`, and from each to the next.
+
+    Args:
+        words: the command.
+        said: is called with each line that it prints.
+
+    Raises:
+        RuntimeError: the command failed, with its errors.
+    """
     environment = {**os.environ, "PYTHONHASHSEED": "0", "OPENBLAS_NUM_THREADS": "1"}
     with tempfile.TemporaryDirectory(prefix="discjump-") as name:
         directory = Path(name)
-        (directory / "cases").write_bytes(pickle.dumps(work))
-        words = ["valgrind", "--tool=callgrind", f"--dump-before={MARKER}"]
-        words += [
-            f"--callgrind-out-file={directory / 'part'}",
-            sys.executable,
-            "-m",
-            "discjump.bench.counted",
-        ]
-        with (directory / "said").open("w+") as said:
+        callgrind = ["valgrind", "--tool=callgrind", f"--dump-before={MARKER}"]
+        callgrind.append(f"--callgrind-out-file={directory / 'part'}")
+        with (directory / "errors").open("w+") as errors:
             with subprocess.Popen(
-                [*words, str(directory / "cases")],
+                [*callgrind, *words],
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
-                stderr=said,
+                stderr=errors,
                 text=True,
             ) as process:
                 assert process.stdout is not None, "it is a pipe"
-                for _ in process.stdout:
-                    progress(1)
+                for line in process.stdout:
+                    said(line.rstrip("\n"))
             if process.returncode != 0:
-                said.seek(0)
-                raise RuntimeError(f"{' '.join(words)} failed:\n{said.read()[-4000:]}")
+                errors.seek(0)
+                raise RuntimeError(f"{' '.join([*callgrind, *words])} failed:\n{errors.read()[-4000:]}")
         return _totals(directory)
 
 

@@ -107,6 +107,8 @@ class Case:
     setting: Setting = field(default_factory=Setting)
     #: Whether the same start whole tiles away must give the same bits.
     far: tuple[int, int] | None = None
+    #: Whether it takes so long that it is not repeated in a crowd.
+    heavy: bool = False
 
     @property
     def label(self) -> str:

@@ -48,6 +48,7 @@ def case(
     ticks: int | None = None,
     far: tuple[int, int] | None = None,
     setting: Setting | None = None,
+    heavy: bool = False,
 ) -> Case:
     """A case whose start is drawn from the seed and its name."""
 
@@ -55,7 +56,7 @@ def case(
         rng = generator(form.seed, extreme, name)
         return begin(rng, terrain, form.players, ticks or form.ticks)
 
-    return Case(extreme, name, ground, begun, setting or Setting(), far)
+    return Case(extreme, name, ground, begun, setting or Setting(), far, heavy)
 
 
 def anywhere(
@@ -225,9 +226,9 @@ def built_in(form: Form) -> list[Case]:
     few = max(8, form.ticks // 4)
     cases = [
         made("speeds", "to 1 km/s", hills, partial(at_speeds, speeds=SPEEDS[:10])),
-        made("speeds", "1e4 m/s", hills, partial(at_speeds, speeds=[1e4]), few),
-        made("speeds", "1e5 m/s", hills, partial(at_speeds, speeds=[1e5]), few),
-        made("speeds", "1e6 m/s", hills, partial(at_speeds, speeds=[1e6]), 4),
+        made("speeds", "1e4 m/s", hills, partial(at_speeds, speeds=[1e4]), few, heavy=True),
+        made("speeds", "1e5 m/s", hills, partial(at_speeds, speeds=[1e5]), few, heavy=True),
+        made("speeds", "1e6 m/s", hills, partial(at_speeds, speeds=[1e6]), 4, heavy=True),
     ]
     for degrees in form.pick((0, 1, 5, 15, 30, 45, 60), (0, 15, 45)):
         cases.append(made("slopes to 60", f"{degrees:g}", partial(grounds.slope, degrees), anywhere))
@@ -280,7 +281,7 @@ def far_cases(form: Form, hills: Callable[..., Terrain]) -> list[Case]:
     counters = case(
         lost, "far, tile", "2^30 tiles", partial(grounds.plain, edge="tile", square=0.25), beyond_counting
     )
-    cases.append(replace(counters, setting=Setting(tick_ms=1000)))
+    cases.append(replace(counters, setting=Setting(tick_ms=1000), heavy=True))
     for edge in ("clamp", "void"):
         for away in form.pick((1e3, 1e5, 1e7, 9e8), (1e5, 9e8)):
             begin = partial(far_away, away=away, seed_of=anywhere)
@@ -307,6 +308,7 @@ def common(form: Form, ground: Callable[[], Terrain]) -> list[Case]:
             ground,
             partial(crowded, together=together),
             setting=Setting(players_per_world=together),
+            heavy=True,
         ),
         case(
             crowd, "discs", f"{crowd.players:,} shooters", ground, shooting, 12, setting=Setting("disc_jump")

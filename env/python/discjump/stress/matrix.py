@@ -17,8 +17,6 @@ from discjump.stress.refusals import refusals
 PASS, EXPECTED, FAIL, UNEXPECTED_PASS = "pass", "expected failure", "FAIL", "unexpectedly passes"
 NOT_NUMBERS = "not numbers"
 """The row of what must be refused: nothing is played in it."""
-HEAVY = 20_000
-"""Players times ticks beyond which a case is not repeated in copies."""
 
 
 @dataclass
@@ -95,7 +93,7 @@ def run(
         ground = case.ground()
         for column in columns:
             cell = cells.setdefault((case.extreme, column), Cell(column, case.extreme))
-            record, found = examined(case, column, ground, crowd and light(case))
+            record, found = examined(case, column, ground, crowd and not case.heavy)
             cell.player_ticks += record.start.inputs.size
             cell.add(case.name, found)
             done(case.label)
@@ -109,11 +107,6 @@ def run(
     for cell in cells.values():
         cell.settle(strict)
     return list(cells.values())
-
-
-def light(case: Case) -> bool:
-    """Whether playing a case in a crowd takes no long time."""
-    return case.extreme != "speeds" and case.setting.players_per_world == 1
 
 
 def work(cases: Sequence[Case], columns: Sequence[Column]) -> int:

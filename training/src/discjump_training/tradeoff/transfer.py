@@ -17,10 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import torch
 
-from discjump_training import courses, episodes, evaluate, intervals
+from discjump_training import courses, episodes, evaluate, intervals, model
 from discjump_training.courses import HELD_OUT
-from discjump_training.evaluate import Judged, judge
+from discjump_training.evaluate import on_stage
 from discjump_training.intervals import Estimate
 from discjump_training.tradeoff.grid import Config, Plan
 from discjump_training.tradeoff.homes import TASK, Home, homes, seconds, train
@@ -129,20 +130,20 @@ class Transfer:
 
 def judged(run: Path, count: int) -> dict[str, Any]:
     """What the last model of a run does at home and in the task, episode by episode."""
-    final = str(run / "final.zip")
-    home, task = (
-        judge(final, HELD_OUT, count, sampled=False, threads=None, record=0, at_home=at_home)
-        for at_home in (True, False)
-    )
-    return {"home": _played(home), "task": _played(task)}
+    # As in training: two threads are slower than one for so small a network where another job runs.
+    torch.set_num_threads(1)
+    return {"home": _played(run, count, at_home=True), "task": _played(run, count, at_home=False)}
 
 
-def _played(one: Judged) -> dict[str, Any]:
+def _played(run: Path, count: int, *, at_home: bool) -> dict[str, Any]:
+    stage, ppo = on_stage(run / "final.zip", HELD_OUT, count, threads=None, at_home=at_home)
+    episodes = stage.play(model.Greedy(ppo, run.name))
+    stage.close()
     return {
-        "frame_skip": one.frame_skip,
-        "seconds": [round(value, 3) for value in one.episodes.seconds.tolist()],
-        "success": one.episodes.success.tolist(),
-        "mean_speed": [round(value, 4) for value in one.episodes.mean_speed.tolist()],
+        "frame_skip": stage.frame_skip,
+        "seconds": [round(value, 3) for value in episodes.seconds.tolist()],
+        "success": episodes.success.tolist(),
+        "mean_speed": [round(value, 4) for value in episodes.mean_speed.tolist()],
     }
 
 
