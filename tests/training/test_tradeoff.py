@@ -54,7 +54,7 @@ def test_quick_form_measures_every_configuration(quick):
     out, figures = quick
     assert figures["command"] == f"discjump tradeoff --sections {','.join(MEASURED)} --quick --out {out}"
     assert tuple(figures["sections"]) == MEASURED
-    assert NAMES == tuple(SECTIONS)
+    assert tuple(SECTIONS) == NAMES
     configs = {tuple(config.values()) for config in figures["configs"]}
     assert len(configs) == len(QUICK.tiers) * len(QUICK.tick_ms) * len(QUICK.surfaces)
     for name in ("speed", "errors", "outcomes"):
