@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -331,3 +332,13 @@ def test_a_file_is_no_folder(tmp_path):
     assert result.exit_code == 2
     assert "--out" in result.output
     assert (tmp_path / "out").read_text() == "mine"
+
+
+def test_the_committed_page_is_that_of_its_figures():
+    """If not, run the command again in the folder of its pieces: nothing is measured anew."""
+    folder = Path(__file__).parents[2] / "training" / "results" / "tradeoff"
+    figures = json.loads((folder / "tradeoff.json").read_text())
+    assert (folder / "tradeoff.md").read_text() == report.render(figures)
+    assert (folder / "tradeoff.png").stat().st_size < 400_000
+    rows = figures["sections"]["errors"]["rows"]
+    assert {Config.of(row) for row in rows if row["tier"] != paths.NUDGED} == set(Plan().configs())
