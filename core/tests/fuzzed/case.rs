@@ -282,4 +282,3 @@ fn possible<T: Scalar>(before: &Body<T>, after: &Body<T>, rules: &Rules<T>) -> R
         None => Ok(()),
     }
 }
-

@@ -3,9 +3,9 @@
 #![allow(missing_docs)]
 
 mod case;
-mod decode;
 #[path = "../common/mod.rs"]
 mod common;
+mod decode;
 
 use case::{Case, Keys};
 use common::widths;
