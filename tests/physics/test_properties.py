@@ -184,7 +184,9 @@ def test_every_tick_leaves_possible_players(case: Case) -> None:
         allowed = own + burst * bursts + 1e-4 + 1e-6 * speeds(before)
         assert (gained <= allowed).all(), f"{where}: gained {gained}, allowed {allowed}"
         if case.tier in DIP:
-            deep = ground.height(state["position"][:, :2]) - state["position"][:, 2]
+            # The distance to the face, not the height under it: a hair inside a wall is metres below its top.
+            at = state["position"][:, :2]
+            deep = (ground.height(at) - state["position"][:, 2]) * ground.normal(at)[:, 2]
             # A slice or sweep so many metres long is rounded by so much of them.
             slack = DIP[case.tier] + (1e-15 if case.tier == "reference" else 2e-7) * speeds(before)
             # Who was beyond a rim with nothing behind it may come back below the map.

@@ -16,6 +16,8 @@ HEADER = {
     "longest": "longest, decisions",
 }
 ENVS = 1024
+ENOUGH = 1024
+"""Episodes among which both kinds of ends must be: one in forty arrives."""
 TIME_LIMIT = 8.0
 """s: long enough to arrive where a start is near its beacon, or to go anywhere."""
 NEAR = (20.0, 120.0)
@@ -78,7 +80,7 @@ def played(fidelity: str, episodes: int, seed: int, done: Callable[[float], obje
             break
     if longest > most:
         failures.append(f"an episode of {longest} decisions, expected {most} at most")
-    if not (arrivals and timeouts):
+    if episodes >= ENOUGH and not (arrivals and timeouts):
         failures.append(f"expected both kinds of ends, got {arrivals} arrivals and {timeouts} time-outs")
     envs.close()
     return {
