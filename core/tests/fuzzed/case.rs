@@ -158,9 +158,11 @@ impl Case {
                 let way = (before + gain) * rules.dt.to_f64();
                 let beside = (1.0 - up * up).max(0.0).sqrt();
                 let place = q.position.x.to_f64().hypot(q.position.y.to_f64());
-                let sizes = place * beside + q.position.z.to_f64().abs() * up + way;
+                let across = place * beside + q.position.z.to_f64().abs() * up;
                 let least = if T::DOUBLE { 1e-9 } else { 2e-3 };
-                if deep > least + 8.0 * eps * sizes {
+                // Who slides along a face is rounded anew by every slice of a metre, towards it at worst.
+                let rounding = 8.0 * eps * (across + way) + 0.5 * eps * across * way.ceil();
+                if deep > least + rounding {
                     return Err(what(format!("{deep} m through a face")));
                 }
             }
