@@ -129,8 +129,13 @@ fn moves_as<S: Scene, M: Movement>(
     let mut full: Player<Sandbox, f32> = lab.player([10.0, 20.0, 60.0], [5.0, 1.0, 0.0]);
     for tick in 0..600u64 {
         let draw = bits(9, tick / 7, Purpose::Start, 0);
-        let mut keys =
-            input((draw % 3) as i8 - 1, 1, draw / 3 % 2 == 0, draw / 6 % 3 > 0, (draw / 18 % 5) as i8 - 2);
+        let mut keys = input(
+            (draw % 3) as i8 - 1,
+            1,
+            (draw / 3).is_multiple_of(2),
+            !(draw / 6).is_multiple_of(3),
+            (draw / 18 % 5) as i8 - 2,
+        );
         own = lab.tick_as::<M, S>(&own, &keys);
         change(&mut full, &mut keys);
         full = lab.tick_as::<M, Sandbox>(&full, &keys);
