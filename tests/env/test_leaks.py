@@ -59,8 +59,9 @@ LIVES_OF = {
     "envs.reset(seed=0); envs.step(ACTIONS); envs.close()",
     "one environment": "env = gymnasium.make('discjump/Ski-v0', terrain_seeds=[0]); "
     "env.reset(seed=0); env.step(ACTIONS[0]); env.close()",
-    "environments of stable-baselines3": "import discjump.sb3; "
-    "envs = discjump.sb3.make_vec_env('discjump/Ski-v0', 64, seed=0, terrain_seeds=[0]); envs.reset(); envs.step(ACTIONS); envs.close()",
+    "environments of stable-baselines3": "import discjump.sb3\n"
+    "    envs = discjump.sb3.make_vec_env('discjump/Ski-v0', 64, seed=0, terrain_seeds=[0])\n"
+    "    envs.reset(); envs.step(ACTIONS); envs.close()",
     "refusals": "\n    try: ENVS.step(ACTIONS[:3])\n    except ValueError: pass",
 }
 
