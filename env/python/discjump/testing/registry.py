@@ -29,6 +29,7 @@ class Check:
     needs: tuple[str, ...]
     when_disabled: tuple[str, ...]
     modes: frozenset[AutoresetMode]
+    strict: bool
 
     @property
     def rule(self) -> str:
@@ -46,12 +47,13 @@ def check(
     needs: Sequence[str] = (),
     when_disabled: Sequence[str] = (),
     modes: frozenset[AutoresetMode] = ALL_MODES,
+    strict: bool = False,
 ) -> Callable[[Run], Run]:
     """Register a function as the check of its name."""
 
     def register(run: Run) -> Run:
         name = run.__name__
-        CHECKS[name] = Check(name, run, source, tuple(needs), tuple(when_disabled), modes)
+        CHECKS[name] = Check(name, run, source, tuple(needs), tuple(when_disabled), modes, strict)
         return run
 
     return register

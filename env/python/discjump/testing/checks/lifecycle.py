@@ -4,30 +4,35 @@ from gymnasium.vector.utils import batch_space
 
 from discjump.testing.registry import check
 from discjump.testing.rollout import Rollout, parting
-from discjump.testing.subject import Broken, Subject
+from discjump.testing.subject import Broken, Env, Subject
 
 
-@check("robustness", needs=["rollout_runs", "seed_repeats"])
+@check("robustness", needs=["rollout_runs"])
 def wrong_actions_are_refused(subject: Subject) -> str:
-    """Actions for more or fewer environments raise, and leave the state untouched.
+    """Actions for more or fewer environments raise.
 
-    No rule of gymnasium's. A rollout that goes on after a caught error must be the one without it. This check
-    comes
-    late: an environment that was passed in may be of no use after it.
+    `VectorEnv.step` asks for an element of `action_space`. What was passed in may be of no use after this check.
     """
-    env = subject.env if subject.factory is None else subject.another()
-    sizes = [subject.num_envs + 1] + ([subject.num_envs - 1] if subject.num_envs > 1 else [])
-    steps = max(0, min(3, subject.quiet - 1))
+    env = _own(subject)
+    sizes = _wrong_sizes(subject)
     for size in sizes:
+        subject.reset(env, seed=subject.seed)
+        _refused(subject, env, size)
+        env = _own(subject)
+    return f"actions of {' and '.join(map(str, sizes))} environments"
+
+
+@check("robustness", needs=["seed_repeats", "wrong_actions_are_refused"], strict=True)
+def refused_actions_change_nothing(subject: Subject) -> str:
+    """After actions for more or fewer environments were refused, the rollout goes on as without them.
+
+    No rule of gymnasium's, and its own do not keep it: they step the environments before they count the actions.
+    """
+    sizes, steps = _wrong_sizes(subject), max(0, min(3, subject.quiet - 1))
+    for size in sizes:
+        env = _own(subject)
         before = subject.drive(env, steps)
-        space = batch_space(subject.actions.space, size)
-        space.seed(subject.seed)
-        try:
-            subject.step(env, space.sample())
-        except Broken:
-            pass
-        else:
-            raise Broken(f"step: actions of {size} environments were accepted by {subject.num_envs}")
+        _refused(subject, env, size)
         if steps < subject.length:
             after = subject.step(env, subject.actions.batch(subject.seeds(), steps))
             one, other = Rollout((), [before, subject.rollout.steps[steps]]), Rollout((), [before, after])
@@ -64,3 +69,22 @@ def closed_is_set(subject: Subject) -> str:
     if closed is not True:
         raise Broken(f"closed after close: expected True, got {closed!r}")
     return "closed is True"
+
+
+def _own(subject: Subject) -> Env:
+    """An environment that may be spoilt."""
+    return subject.env if subject.factory is None else subject.another()
+
+
+def _wrong_sizes(subject: Subject) -> list[int]:
+    return [subject.num_envs + 1] + ([subject.num_envs - 1] if subject.num_envs > 1 else [])
+
+
+def _refused(subject: Subject, env: Env, size: int) -> None:
+    space = batch_space(subject.actions.space, size)
+    space.seed(subject.seed)
+    try:
+        subject.step(env, space.sample())
+    except Broken:
+        return
+    raise Broken(f"step: actions of {size} environments were accepted by {subject.num_envs}")
