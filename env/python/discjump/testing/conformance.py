@@ -120,7 +120,7 @@ class Conformance:
             return "skip", str(reason)
         except Broken as broken:
             # What broke may be in any state.
-            subject.discard()
+            subject.forget()
             return "fail", str(broken)
         except Unanswered:
             subject.unanswered = check.name

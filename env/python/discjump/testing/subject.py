@@ -105,6 +105,13 @@ class Subject:
             env, self._env = self._env, None
             self._closed(env)
 
+    def forget(self) -> None:
+        """`discard`, and play the shared rollouts anew: another instance may differ."""
+        self.discard()
+        if self.factory is not None:
+            for name in ("rollout", "quiet", "among_others", "row_fields"):
+                self.__dict__.pop(name, None)
+
     def close_others(self) -> None:
         """Close what `another` made."""
         while self._others:
@@ -165,9 +172,7 @@ class Subject:
             rollout.frames.append(frame if keep else _light(frame))
 
         if settle and env is self._env:
-            # What an earlier rollout left pending is the business of the check `reset_forgets` alone.
-            self.reset(env, seed=self.seed)
-            self.step(env, self.actions.batch(self.seeds(), 0))
+            self._settle(env)
         before()
         call(self.reset(env, seed=list(seed) if isinstance(seed, list) else seed))
         ends, since = np.zeros(env.num_envs, int), 0
@@ -200,10 +205,16 @@ class Subject:
     def drive(self, env: Env, steps: int) -> Frame:
         """The first `steps` steps of the shared rollout again, up to its first end at most; the last
         frame."""
+        self._settle(env)
         frame = self.reset(env, seed=self.seed)
         for step in range(steps):
             frame = self.step(env, self.actions.batch(self.seeds(), step))
         return frame
+
+    def _settle(self, env: Env) -> None:
+        """Take a step: what an earlier rollout left pending is the business of `reset_forgets` alone."""
+        self.reset(env, seed=self.seed)
+        self.step(env, self.actions.batch(self.seeds(), 0))
 
     @cached_property
     def quiet(self) -> int:
@@ -225,6 +236,8 @@ class Subject:
     @cached_property
     def row_fields(self) -> tuple[str, ...]:
         """What comparisons of single environments compare: not `info`, if it depends on the others."""
+        if self.num_envs < 2:
+            return FIELDS
         for index, again in self.among_others.items():
             if parting(self.rollout, again, [(index, index)], self.ignored, ("info",)):
                 return CORE

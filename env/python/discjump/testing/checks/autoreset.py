@@ -42,24 +42,24 @@ def next_step_ignores_action(subject: Subject) -> str:
     Autoreset documentation of gymnasium.
     """
     changed = 0
+    for index in sorted({0, subject.num_envs - 1}):
 
-    def alter(step: int, rollout: Rollout, actions: Any) -> Any:
-        nonlocal changed
-        last = rollout.frames[-1]
-        if last.call != "step" or not last.ended.any():
-            return actions
-        streams = list(subject.seeds())
-        for index in map(int, np.flatnonzero(last.ended)):
+        def alter(step: int, rollout: Rollout, actions: Any, index: int = index) -> Any:
+            nonlocal changed
+            last = rollout.frames[-1]
+            if last.call != "step" or not last.ended[index]:
+                return actions
+            streams = list(subject.seeds())
             streams[index] = _other_stream(subject, streams[index], step)
-        changed += int(last.ended.sum())
-        return subject.actions.batch(streams, step)
+            changed += 1
+            return subject.actions.batch(streams, step)
 
-    again = subject.play(subject.env, subject.seed, alter=alter)
+        again = subject.play(subject.env, subject.seed, alter=alter)
+        found = parting(subject.rollout, again, [(index, index)], subject.ignored, subject.row_fields)
+        if found:
+            raise Broken(f"with other actions of environment {index} in the steps that reset it: {found}")
     if not changed:
         raise Untested(_no_end(subject))
-    found = parting(subject.rollout, again, ignored=subject.ignored)
-    if found:
-        raise Broken(f"with other actions in the steps that reset: {found}")
     return f"{changed} resets"
 
 
@@ -122,7 +122,7 @@ def final_obs_is_the_last(subject: Subject) -> str:
 
 @check(
     "sync",
-    needs=["rollout_runs", "seed_repeats", "neighbours_do_not_matter", "seed_of_each_environment"],
+    needs=["unseeded_reset_continues", "next_step_ignores_action", "seed_of_each_environment"],
     modes=LATER,
 )
 def autoreset_is_a_reset(subject: Subject) -> str:

@@ -7,7 +7,11 @@ from discjump.testing.rollout import CORE, Rollout, parting
 from discjump.testing.subject import Broken, Subject, Untested
 
 
-@check("determinism", needs=["rollout_runs", "seed_repeats"], when_disabled=["reset_mask_spares_others"])
+@check(
+    "determinism",
+    needs=["seed_repeats", "reward_array", "flag_arrays"],
+    when_disabled=["reset_mask_spares_others"],
+)
 def neighbours_do_not_matter(subject: Subject) -> str:
     """An environment's rollout does not depend on the actions of the others."""
     found = _by_neighbours(subject, CORE)
@@ -16,7 +20,7 @@ def neighbours_do_not_matter(subject: Subject) -> str:
     return f"environments 0 and {subject.num_envs - 1}, {subject.length} steps"
 
 
-@check("determinism", needs=["info_masks", "neighbours_do_not_matter"])
+@check("determinism", needs=["info_masks", "final_obs_masks", "final_info_masks", "neighbours_do_not_matter"])
 def neighbours_leave_infos(subject: Subject) -> str:
     """What `info` says of an environment does not depend on the actions of the others.
 
@@ -50,7 +54,7 @@ def position_does_not_matter(subject: Subject) -> str:
     return _alike(subject, left, right, rows, "the same seed and actions at another index")
 
 
-@check("determinism", needs=["position_does_not_matter"])
+@check("determinism", needs=["new_instance_repeats", "position_does_not_matter"])
 def batch_size_does_not_matter(subject: Subject) -> str:
     """An environment gives the same rollout alone and in a larger batch, for the same seed and actions."""
     last = subject.num_envs - 1

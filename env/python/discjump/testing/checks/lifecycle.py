@@ -11,7 +11,8 @@ from discjump.testing.subject import Broken, Env, Subject
 def wrong_actions_are_refused(subject: Subject) -> str:
     """Actions for more or fewer environments raise.
 
-    `VectorEnv.step` asks for an element of `action_space`. What was passed in may be of no use after this check.
+    `VectorEnv.step` asks for an element of `action_space`. An environment that was passed in may be of no use
+    afterwards.
     """
     env = _own(subject)
     sizes = _wrong_sizes(subject)
@@ -22,11 +23,11 @@ def wrong_actions_are_refused(subject: Subject) -> str:
     return f"actions of {' and '.join(map(str, sizes))} environments"
 
 
-@check("robustness", needs=["seed_repeats", "wrong_actions_are_refused"], strict=True)
+@check("robustness", needs=["new_instance_repeats", "wrong_actions_are_refused"], strict=True)
 def refused_actions_change_nothing(subject: Subject) -> str:
     """After actions for more or fewer environments were refused, the rollout goes on as without them.
 
-    No rule of gymnasium's, and its own do not keep it: they step the environments before they count the actions.
+    No rule of gymnasium's, and its own do not keep it: they step environments before they count the actions.
     """
     sizes, steps = _wrong_sizes(subject), max(0, min(3, subject.quiet - 1))
     for size in sizes:

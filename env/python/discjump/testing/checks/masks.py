@@ -16,7 +16,7 @@ from discjump.testing.rollout import CORE, Frame, Rollout, parting
 from discjump.testing.subject import Broken, Subject, Untested
 from discjump.testing.trees import difference, take
 
-SHARED = ["rollout_runs", "seed_repeats"]
+SHARED = ["seed_repeats", "reward_array", "flag_arrays"]
 
 
 @check("sync", needs=SHARED)
@@ -46,7 +46,7 @@ def reset_mask_spares_others(subject: Subject) -> str:
     return f"{len(outside)} of {subject.num_envs} environments, {len(onward.frames) - 1} steps on"
 
 
-@check("sync", needs=SHARED)
+@check("sync", needs=[*SHARED, "reset_mask_spares_others"])
 def reset_mask_resets(subject: Subject) -> str:
     """A reset with a seed and a mask starts those of the mask as the same reset without a mask would."""
     env = subject.env
@@ -59,7 +59,7 @@ def reset_mask_resets(subject: Subject) -> str:
     return f"{len(inside)} of {subject.num_envs} environments"
 
 
-@check("sync", needs=[*SHARED, "info_masks"])
+@check("sync", needs=[*SHARED, "reset_mask_spares_others", "info_masks"])
 def reset_mask_infos(subject: Subject) -> str:
     """`info` of a reset with a mask speaks of the environments of the mask alone."""
     mask, _, after = _masked_reset(subject)
@@ -67,7 +67,7 @@ def reset_mask_infos(subject: Subject) -> str:
     return f"keys {', '.join(sorted(map(str, after.info))) or 'none'}"
 
 
-@check("sync", needs=SHARED)
+@check("sync", needs=[*SHARED, "reset_mask_spares_others"])
 def reset_mask_refusals(subject: Subject) -> str:
     """A mask of another shape or dtype, or without any True, is refused, and nothing is reset."""
     _masked_reset(subject)

@@ -55,7 +55,7 @@ def rollout_runs(subject: Subject) -> str:
     return f"{len(rollout.steps)} steps of {subject.num_envs} environments, {ends} episodes ended"
 
 
-@check("gymnasium")
+@check("gymnasium", needs=["rollout_runs"])
 def observation_dtype(subject: Subject) -> str:
     """Observations have the structure, shape and dtype that `observation_space` declares.
 
@@ -93,7 +93,7 @@ def observation_in_space(subject: Subject) -> str:
     return f"{len(subject.rollout.frames)} observations"
 
 
-@check("gymnasium")
+@check("gymnasium", needs=["rollout_runs"])
 def reward_array(subject: Subject) -> str:
     """Rewards are a numpy array of shape (num_envs,), of one real dtype, without NaN or infinity.
 
@@ -114,7 +114,7 @@ def reward_array(subject: Subject) -> str:
     return ", ".join(map(str, dtypes))
 
 
-@check("gymnasium")
+@check("gymnasium", needs=["rollout_runs"])
 def flag_arrays(subject: Subject) -> str:
     """`terminated` and `truncated` are numpy arrays of shape (num_envs,) and dtype bool.
 
@@ -132,7 +132,7 @@ def flag_arrays(subject: Subject) -> str:
     return f"{counts[0]} terminated, {counts[1]} truncated"
 
 
-@check("gymnasium")
+@check("gymnasium", needs=["rollout_runs"])
 def info_masks(subject: Subject) -> str:
     """Every key of `info` has one entry for each environment and a mask `_key`: bool, shape (num_envs,).
 
