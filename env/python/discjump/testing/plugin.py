@@ -64,7 +64,7 @@ class EnvironmentNode(pytest.Collector):
 
     @property
     def conformance(self) -> Conformance:
-        """The checks; the first item that asks gets what making the environment raised, others are skipped."""
+        """The checks; what making the environment raises meets the first item, the others are skipped."""
         if self._error is not None:
             pytest.skip(f"the environment could not be made: {type(self._error).__name__}")
         if self._conformance is None:
