@@ -6,6 +6,7 @@
     subject      the environment under test and the rollouts that its checks share
     rollout      what was called and what came back; where two rollouts part
     trees        nested arrays, compared bit for bit
+    batching     batches of spaces that numpy has no arrays for
     limits       calls that never return
     report       outcomes and the error that lists the failures
     verdicts     the table of gymnasium's own vector environments

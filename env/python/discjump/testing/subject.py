@@ -8,6 +8,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from numpy.typing import NDArray
 
+from discjump.testing.batching import to_rows
 from discjump.testing.limits import Limit, Unanswered, limited
 from discjump.testing.rollout import CORE, FIELDS, Actions, Frame, Rollout, parting
 from discjump.testing.trees import frozen
@@ -267,6 +268,7 @@ class Subject:
         if not isinstance(returned, tuple) or len(returned) != 2 or not isinstance(returned[1], dict):
             raise Broken(f"{what}: expected (observation, info dict), got {_shape(returned)}")
         observation, info = frozen(returned)
+        observation = to_rows(self.single_observation_space, observation)
         return Frame("reset", observation, info, returned, mask=mask)
 
     def step(self, env: Env, actions: Any, at: int | None = None) -> Frame:
@@ -277,6 +279,7 @@ class Subject:
             wanted = "(observation, reward, terminated, truncated, info dict)"
             raise Broken(f"{what}: expected {wanted}, got {_shape(returned)}")
         observation, reward, terminated, truncated, info = frozen(returned)
+        observation = to_rows(self.single_observation_space, observation)
         return Frame("step", observation, info, returned, reward, terminated, truncated)
 
     def called(self, what: str, call: Callable[[], Any]) -> Any:

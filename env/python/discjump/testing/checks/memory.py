@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from discjump.testing.batching import to_rows
 from discjump.testing.registry import check
 from discjump.testing.rollout import FIELDS, parting
 from discjump.testing.subject import Broken, Subject
@@ -91,7 +92,10 @@ def _stays(subject: Subject, name: str) -> str:
         place = FIELDS.index(name) if frame.call == "step" else {"observation": 0, "info": 1}.get(name)
         if place is None:
             continue
-        found = difference(getattr(frame, name), frozen(frame.returned[place]))
+        now = frozen(frame.returned[place])
+        if name == "observation":
+            now = to_rows(subject.single_observation_space, now)
+        found = difference(getattr(frame, name), now)
         if found:
             raise Broken(
                 f"call {at} ({frame.call}): {name}{found.path} was {found.left} when it was returned, "
