@@ -155,7 +155,8 @@ def test_neither_pytest_nor_stable_baselines3_is_needed():
     script = (
         "import sys; sys.modules.update(dict.fromkeys(('pytest', '_pytest', 'stable_baselines3', 'torch')))\n"
         "import gymnasium\nfrom discjump.testing import check_vector_env\n"
-        "print(check_vector_env(gymnasium.make_vec('CartPole-v1', 2, vectorization_mode='sync'), steps=30).passed)"
+        "env = gymnasium.make_vec('CartPole-v1', 2, vectorization_mode='sync')\n"
+        "print(check_vector_env(env, steps=30).passed)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout == "True\n"

@@ -1,7 +1,7 @@
 """Batches of spaces that numpy has no arrays for.
 
-`gymnasium.vector.utils` batches Text, Sequence, Graph and OneOf to a tuple with one item for each environment, which
-looks like the batch of a Tuple space. Here such a batch is an array of dtype object instead.
+`gymnasium.vector.utils` batches Text, Sequence, Graph and OneOf to a tuple with one item for each
+environment, which looks like the batch of a Tuple space. Here it is an array of dtype object instead.
 """
 
 from collections.abc import Callable

@@ -62,8 +62,7 @@ def parsed(line: str) -> Declared:
     SyncVectorEnv(CartPole-v1, num_envs=2)
     >>> parsed("CartPole-v1 sync")
     Traceback (most recent call last):
-    _pytest.config.exceptions.UsageError: discjump_envs: expected words key=value after 'CartPole-v1', got
-    'sync'
+    pytest.UsageError: discjump_envs: expected words key=value after 'CartPole-v1', got 'sync'
     """
     target, *words = shlex.split(line)
     settings: dict[str, Any] = {}
