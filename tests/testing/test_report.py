@@ -131,7 +131,7 @@ def test_a_blocked_call_is_left_behind():
     begin = time.monotonic()
     report = check_vector_env(lambda n: doubles.NeverAnswers(n, NEXT), timeout=0.3, raise_on_failure=False)
     assert time.monotonic() - begin < 20
-    assert report["rollout_runs"].detail == "no answer within 0.3 s"
+    assert report["rollout_runs"].detail == "not done within 0.3 s"
     assert report["seed_repeats"].detail == "needs rollout_runs, which failed"
 
 

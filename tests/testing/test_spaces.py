@@ -50,6 +50,8 @@ class Samples(gymnasium.Env[Any, Any]):
 MODES = list(AutoresetMode)
 
 
+# gymnasium's own, of sequences and of numbers without an axis.
+@pytest.mark.filterwarnings("ignore:.*Casting input x to numpy array")
 @pytest.mark.parametrize(
     ("name", "mode"),
     [(name, MODES[index % 3]) for index, name in enumerate(SPACES)] + [("dict", mode) for mode in MODES[:2]],

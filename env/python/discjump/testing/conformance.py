@@ -108,7 +108,7 @@ class Conformance:
                 self._blocked.add(check.name)
                 return "skip", f"needs {need}, which {_state(self.outcome(need))}"
         if subject.unanswered is not None:
-            return "skip", f"a call did not return in {subject.unanswered}"
+            return "skip", f"{subject.unanswered} was not done in time, so a call may still be running"
         return self._run(check)
 
     def _run(self, check: Check) -> tuple[Verdict, str]:
@@ -125,7 +125,7 @@ class Conformance:
         except Unanswered:
             subject.unanswered = check.name
             subject.discard()
-            return "fail", f"no answer within {subject.timeout:g} s"
+            return "fail", f"not done within {subject.timeout:g} s"
         finally:
             subject.close_others()
 
