@@ -11,6 +11,7 @@
     features    what leaving a feature of a scene out changes
     theory      the simulator against closed forms
     stress      whether the simulator stands its extremes
+    testing     conformance of any vector environment, for other people's CI
     cli         the command `discjump`
 
 Arrows point down only: cli -> accuracy, features, theory, stress, sb3 -> envs -> terrains, simulator,
