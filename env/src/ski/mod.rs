@@ -316,7 +316,8 @@ impl SkiBatch {
             None => this.batch.restore(snapshot),
         })?;
         this.kept.clear();
-        this.life.restore(&this.batch.stages());
+        let restored = index.map_or(0..this.batch.len(), |index| index..index + 1);
+        restored.for_each(|env| this.life.restore(env, this.batch.stage_of(env)));
         Ok(())
     }
 

@@ -178,8 +178,11 @@ pub trait Environments: Send + Sync {
     fn state(&self) -> Vec<u8>;
     /// Bytes that one environment takes in memory, beside its observation row.
     fn bytes_per_environment(&self) -> usize;
-    /// Where each environment is in its life.
-    fn stages(&self) -> Vec<LifeStage>;
+    /// Where an environment is in its life.
+    ///
+    /// # Panics
+    /// If there is no such environment.
+    fn stage_of(&self, env: usize) -> LifeStage;
     /// Everything, as bytes that [`Environments::restore`] takes.
     fn snapshot(&self) -> Vec<u8>;
     /// Goes back to a snapshot of this batch or of another one of the same arguments. Autoreset modes may differ.
