@@ -64,7 +64,7 @@ def bisect(a: str, b: str, tolerance: float, out: Path) -> None:
         sides = (one, Side.parsed(b, one))
         outcome = run(*sides, tolerance=tolerance)
         parting = outcome.parting
-        contacts = ("", "") if parting is None else contact_list(sides, parting)
+        contacts: report.Contacts = ([], []) if parting is None else contact_list(sides, parting)
         click.echo(report.text(sides, outcome, contacts))
         figures = report.as_json(sides, outcome, contacts)
         if parting is not None:
@@ -72,6 +72,8 @@ def bisect(a: str, b: str, tolerance: float, out: Path) -> None:
             again = shlex.join(["discjump", "bisect", str(path), changes(sides)])
             figures |= {"replay": str(path), "command": again}
             click.echo(f"\nstarts there:  {path}\ngo on with:    {again}")
+    except BrokenPipeError:
+        raise
     except (SideError, ReplayError, OSError) as error:
         click.echo(f"Error: {error}", err=True)
         raise SystemExit(2) from error

@@ -21,7 +21,9 @@ class Difference:
         field: what differs, such as `state.velocity[2]`.
         row: which player of a simulator; 0 of an environment.
         a, b: the values.
-        ulps: how far they are apart, in the shorter one's last places; None where that means nothing.
+        ulps: how far they are apart in last places; None where that means nothing.
+        counted: in which dtype's: the shorter one's of the two. States hold positions in float64, whatever the
+            tier computes in; theirs are counted in the dtype of the velocities.
         metres: how far the positions are apart, where a tolerance was asked for.
     """
 
@@ -30,6 +32,7 @@ class Difference:
     a: Any
     b: Any
     ulps: int | None = None
+    counted: str = ""
     metres: float | None = None
 
 
@@ -99,7 +102,7 @@ def differences(a: Frame, b: Frame, tolerance: float) -> Iterator[Difference]:
     else:
         for name, values in a.values.items():
             if name in b.values:
-                yield from _unequal(name, values, b.values[name])
+                yield from _unequal(name, values, b.values[name], _real(a.values, b.values))
     if a.over != b.over:
         yield Difference("end", 0, *("over" if frame.over else "goes on" for frame in (a, b)))
 
@@ -112,13 +115,21 @@ def _apart(a: Values, b: Values, tolerance: float) -> Iterator[Difference]:
         yield Difference("state.position", int(row), one[row], other[row], metres=float(metres[row]))
 
 
-def _unequal(name: str, a: NDArray[Any], b: NDArray[Any]) -> Iterator[Difference]:
+def _real(a: Values, b: Values) -> np.dtype[Any]:
+    """The shorter dtype that the two sides compute in."""
+    both = [values["state"].dtype["velocity"].base for values in (a, b)]
+    return min(both, key=lambda dtype: dtype.itemsize)
+
+
+def _unequal(
+    name: str, a: NDArray[Any], b: NDArray[Any], real: np.dtype[Any]
+) -> Iterator[Difference]:
     if a.shape != b.shape:
         yield Difference(f"{name} (how many)", 0, a.shape, b.shape)
     elif a.dtype.names is not None:
         for field in a.dtype.names:
             if field in (b.dtype.names or ()):
-                yield from _unequal(f"{name}.{field}", a[field], b[field])
+                yield from _unequal(f"{name}.{field}", a[field], b[field], real)
     else:
         unequal = np.argwhere(~_same(a, b))
         if len(unequal):
@@ -128,7 +139,9 @@ def _unequal(name: str, a: NDArray[Any], b: NDArray[Any]) -> Iterator[Difference
             row, inner = (place[0], place[1:]) if rows else (0, place)
             one, other = a[place], b[place]
             field = name + "".join(f"[{k}]" for k in inner)
-            yield Difference(field, row, one, other, ulps(one, other))
+            dtypes = [one.dtype, other.dtype, *([real] if name.endswith(".position") else [])]
+            short = min(dtypes, key=lambda dtype: dtype.itemsize)
+            yield Difference(field, row, one, other, ulps(one, other, short), short.name)
 
 
 def _same(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.bool_]:

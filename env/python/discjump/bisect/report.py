@@ -11,18 +11,22 @@ from discjump.bisect.start import inputs_of
 from discjump.replays import EpisodeReplay, Replay
 
 
+Contacts = tuple[list[str], list[str]]
+"""The contact lists of A and B, a line for each contact."""
+
+
 def seconds(replay: Replay, tick: int) -> float:
     """Time after so many ticks, s."""
     return float(tick * replay.options["tick_ms"] / 1000)
 
 
-def text(sides: tuple[Side, Side], outcome: Outcome, contacts: tuple[str, str]) -> str:
+def text(sides: tuple[Side, Side], outcome: Outcome, contacts: Contacts) -> str:
     """The report.
 
     Args:
         sides: A and B.
         outcome: what came of running them.
-        contacts: the contact list of the tick on each side, as text.
+        contacts: the contact list of the tick on each side.
     """
     lines = []
     for name, side, found in zip("AB", sides, outcome.installations, strict=True):
@@ -33,10 +37,18 @@ def text(sides: tuple[Side, Side], outcome: Outcome, contacts: tuple[str, str]) 
         return "\n".join(lines)
     lines += ["", headline(replay, parting), ""]
     lines += [f"  {name:<12}{value}" for name, value in facts(replay, parting).items()]
-    lines += ["", f"  {'contacts':<12}A: {contacts[0]}", f"  {'':<12}B: {contacts[1]}"]
+    if contacts[0] == contacts[1]:
+        lines += listed("contacts", contacts[0])
+    else:
+        lines += [*listed("contacts, A", contacts[0]), *listed("contacts, B", contacts[1])]
     if parting.others:
         lines += ["", f"  also apart: {', '.join(parting.others)}"]
     return "\n".join([*lines, "", *table(parting)])
+
+
+def listed(name: str, rows: list[str]) -> list[str]:
+    """Lines under one name."""
+    return [f"  {name if k == 0 else '':<12}{row}" for k, row in enumerate(rows)]
 
 
 def headline(replay: Replay, parting: Parting) -> str:
@@ -58,9 +70,9 @@ def facts(replay: Replay, parting: Parting) -> dict[str, str]:
     if found.metres is not None:
         made["apart"] = f"{found.metres:.6g} m"
     elif found.ulps is not None:
-        dtype = min(np.asarray(found.a).dtype, np.asarray(found.b).dtype, key=lambda d: d.itemsize)
-        zero = " (only the sign of zero differs)" if found.ulps == 0 else ""
-        made["apart"] = f"{found.ulps} ULP of {dtype}{zero}"
+        zero = " (less than one, or the sign of zero)" if found.ulps == 0 else ""
+        size = abs(float(found.a) - float(found.b))
+        made["apart"] = f"{found.ulps:,} ULP of {found.counted}{zero}, {size:.3g}"
     made["inputs"] = keys(replay, parting)
     return made
 
@@ -97,7 +109,7 @@ def table(parting: Parting) -> list[str]:
     return lines
 
 
-def as_json(sides: tuple[Side, Side], outcome: Outcome, contacts: tuple[str, str]) -> dict[str, Any]:
+def as_json(sides: tuple[Side, Side], outcome: Outcome, contacts: Contacts) -> dict[str, Any]:
     """The same for machines."""
     parting = outcome.parting
     made: dict[str, Any] = {

@@ -17,7 +17,7 @@ WAYS = ("threads", "lanes", "batch", "index")
 """How a side is played: what must change no bit."""
 
 EPISODE = ("seed", "episode")
-FIXED = ("frame_skip", "tick_ms", "physics", "actions", "terrain_seeds", "terrains")
+FIXED = ("frame_skip", "tick_ms", "actions", "terrain_seeds", "terrains", "scene", "players_per_world")
 """What cannot be changed: ticks and actions of the two sides would not mean the same, or it is no word."""
 
 CROWD = 1024
@@ -106,18 +106,25 @@ def changed(replay: Replay, changes: Mapping[str, Any]) -> Replay:
     Raises:
         SideError: no such option, or one that both sides must share.
     """
-    options = {**replay.header["options"], "physics": dict(replay.header["options"]["physics"])}
+    options = {
+        name: dict(value) if isinstance(value, dict) else value
+        for name, value in replay.header["options"].items()
+    }
+    groups = {name: value for name, value in options.items() if isinstance(value, dict)}
     header: dict[str, Any] = {}
     for name, value in changes.items():
         group, _, switch = name.partition(".")
-        if group == "physics" and switch in options["physics"]:
-            options["physics"][switch] = value
+        if switch in groups.get(group, ()):
+            groups[group][switch] = value
         elif name in EPISODE and isinstance(replay, EpisodeReplay):
             header[name] = _check.integer(name, value, 0, 2**64 - 1 if name == "seed" else 2**24)
-        elif name in options and name not in FIXED:
+        elif name == "surface" and isinstance(replay, TickReplay):
+            continue
+        elif name in options and name not in (*FIXED, *groups):
             options[name] = value
         else:
-            free = sorted({*options} - {*FIXED}) + [f"physics.{key}" for key in options["physics"]]
+            free = sorted({*options} - {*FIXED, *groups})
+            free += [f"{group}.{key}" for group, keys in groups.items() for key in keys]
             also = (*EPISODE, *WAYS, "python") if isinstance(replay, EpisodeReplay) else (*WAYS, "python")
             raise SideError(f"{name}: expected one of {', '.join([*also, *free])}, got something else")
     made = replay.changed(header={**header, "options": options})

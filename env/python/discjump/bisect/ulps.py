@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 
 
-def ulps(one: Any, other: Any) -> int | None:
+def ulps(one: Any, other: Any, dtype: Any = None) -> int | None:
     """How many steps to a neighbouring number lead from one to the other; None where one is NaN or no float.
 
-    Zeros of both signs are one number: 0. Numbers of different dtypes are counted in the shorter one's.
+    Zeros of both signs are one number: 0. They are counted in `dtype`, to which
+    both are rounded first; None: the shorter one's of the two.
 
     >>> ulps(np.float32(1), np.nextafter(np.float32(1), np.float32(2)))
     1
@@ -18,7 +19,7 @@ def ulps(one: Any, other: Any) -> int | None:
     first, second = np.asarray(one), np.asarray(other)
     if first.dtype.kind != "f" or second.dtype.kind != "f":
         return None
-    short = min(first.dtype, second.dtype, key=lambda dtype: dtype.itemsize)
+    short = min(first.dtype, second.dtype, key=lambda d: d.itemsize) if dtype is None else dtype
     with np.errstate(over="ignore"):
         first, second = first.astype(short), second.astype(short)
     if np.isnan(first) or np.isnan(second):

@@ -66,7 +66,7 @@ def _plain(array: NDArray[Any]) -> NDArray[Any]:
     """In C order, little-endian and without padding between fields."""
     names = array.dtype.names
     if names is None:
-        return np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
+        return np.asarray(array, array.dtype.newbyteorder("<"), order="C")
     packed = np.dtype([(name, _field(array.dtype[name])) for name in names])
     out = np.empty(array.shape, packed)
     for name in names:
