@@ -31,7 +31,8 @@ def episode(seed: int = 5, every: int = 8, reset: Any = None, **options: Any) ->
     while not over:
         _, _, terminated, truncated, _ = env.step(drawn(options.get("actions", "multi_discrete"), rng))
         over = terminated or truncated
-    return env.replays[0]
+    made: EpisodeReplay = env.replays[0]
+    return made
 
 
 def bowl(cells: int = 20) -> discjump.Terrain:

@@ -205,9 +205,7 @@ def _evaluate(
     for name in judging.entrants(policies, with_baselines):
         click.echo(f"{name} plays {count} episodes ...", err=True)
         judged.append(
-            judging.judge(
-                name, course, count, sampled=sampled, threads=threads, record=3, replays=replays
-            )
+            judging.judge(name, course, count, sampled=sampled, threads=threads, record=3, replays=replays)
         )
     compared = judging.compare(judged)
 

@@ -22,8 +22,8 @@ class Difference:
         row: which player of a simulator; 0 of an environment.
         a, b: the values.
         ulps: how far they are apart in last places; None where that means nothing.
-        counted: in which dtype's: the shorter one's of the two. States hold positions in float64, whatever the
-            tier computes in; theirs are counted in the dtype of the velocities.
+        counted: in which dtype's: the shorter one's of the two. States hold positions in float64, whatever
+            the tier computes in; theirs are counted in the dtype of the velocities.
         metres: how far the positions are apart, where a tolerance was asked for.
     """
 
@@ -104,7 +104,8 @@ def differences(a: Frame, b: Frame, tolerance: float) -> Iterator[Difference]:
             if name in b.values:
                 yield from _unequal(name, values, b.values[name], _real(a.values, b.values))
     if a.over != b.over:
-        yield Difference("end", 0, *("over" if frame.over else "goes on" for frame in (a, b)))
+        words = {True: "over", False: "goes on"}
+        yield Difference("end", 0, words[a.over], words[b.over])
 
 
 def _apart(a: Values, b: Values, tolerance: float) -> Iterator[Difference]:
@@ -121,9 +122,7 @@ def _real(a: Values, b: Values) -> np.dtype[Any]:
     return min(both, key=lambda dtype: dtype.itemsize)
 
 
-def _unequal(
-    name: str, a: NDArray[Any], b: NDArray[Any], real: np.dtype[Any]
-) -> Iterator[Difference]:
+def _unequal(name: str, a: NDArray[Any], b: NDArray[Any], real: np.dtype[Any]) -> Iterator[Difference]:
     if a.shape != b.shape:
         yield Difference(f"{name} (how many)", 0, a.shape, b.shape)
     elif a.dtype.names is not None:

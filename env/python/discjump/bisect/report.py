@@ -10,7 +10,6 @@ from discjump.bisect.sides import Side
 from discjump.bisect.start import inputs_of
 from discjump.replays import EpisodeReplay, Replay
 
-
 Contacts = tuple[list[str], list[str]]
 """The contact lists of A and B, a line for each contact."""
 

@@ -20,6 +20,8 @@ EPISODE = ("seed", "episode")
 FIXED = ("frame_skip", "tick_ms", "actions", "terrain_seeds", "terrains", "scene", "players_per_world")
 """What cannot be changed: ticks and actions of the two sides would not mean the same, or it is no word."""
 
+ALONE = play.Way()
+
 CROWD = 1024
 """Environments beside which one is played where threads are asked for and no batch: enough to be split."""
 
@@ -43,7 +45,7 @@ class Side:
 
     text: str
     replay: Replay
-    way: play.Way = play.Way()
+    way: play.Way = ALONE
     python: str | None = None
 
     @classmethod
@@ -143,7 +145,9 @@ def _resurfaced(replay: Replay, surface: str) -> Replay:
         if replay.header["terrains"] is None:
             return replay
         made = [build.terrain(one, arrays).with_surface(surface) for one in replay.header["terrains"]]
-        return replay.changed({"terrains": [grounds.plain(one, arrays, solids=False) for one in made]}, arrays)
+        return replay.changed(
+            {"terrains": [grounds.plain(one, arrays, solids=False) for one in made]}, arrays
+        )
     except ValueError as error:
         if isinstance(error, ReplayError):
             raise

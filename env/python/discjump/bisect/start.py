@@ -41,9 +41,7 @@ def chosen(sides: tuple[Side, Side]) -> int:
     return 1 if sides[0].python is not None and sides[1].python is None else 0
 
 
-def just_before(
-    side: Side, parting: Parting, k: int
-) -> tuple[Simulator, NDArray[np.void], dict[str, Any]]:
+def just_before(side: Side, parting: Parting, k: int) -> tuple[Simulator, NDArray[np.void], dict[str, Any]]:
     """A simulator of a side as it is just before the tick after which the sides differ.
 
     Args:
@@ -85,12 +83,12 @@ def terrain_of(replay: Replay) -> Terrain:
 
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
-    """Those of a replay's options that are a simulator's, with its physics; the scene of environments is ski."""
+    """Those of a replay's options that are a simulator's, with its physics; an environment's scene is ski."""
     found = {name: value for name, value in options.items() if name in ARGUMENTS}
     return {"scene": "ski", **found, "physics": Physics(**options["physics"])}
 
 
-def inputs_of(actions: NDArray[np.generic], turn_rate: float, real: np.dtype[np.generic]) -> NDArray[np.void]:
+def inputs_of(actions: NDArray[Any], turn_rate: float, real: np.dtype[Any]) -> NDArray[np.void]:
     """The keys that actions (n, 5) stand for, (n,) of dtype `INPUT`, with turns as the tier computes them.
 
     Discrete ones are bins: forward and strafe -1, 0, 1; jump; jet; turn in thirds of the largest rate from

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO, Self
+from typing import Any, Self
 
 from discjump.bisect.sides import Side, SideError
 from discjump.replays import bare
@@ -76,7 +76,7 @@ class Elsewhere(Stream):
 
     def __init__(self, side: Side) -> None:
         self._side = side
-        self._errors: BinaryIO = tempfile.TemporaryFile()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115  closed by `close`
         boot = [str(side.python), "-P", "-c", _BOOT, str(Path(bare.__file__))]
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
         try:

@@ -32,4 +32,5 @@ def _place(number: Any) -> int:
     size = 8 * number.dtype.itemsize
     bits = int(number.view(f"u{number.dtype.itemsize}"))
     magnitude = bits & ((1 << (size - 1)) - 1)
-    return -magnitude if bits >> (size - 1) else magnitude
+    place: int = -magnitude if bits >> (size - 1) else magnitude
+    return place

@@ -20,7 +20,9 @@ def card(replay: Replay, size: int) -> Card:
     told = _episode(replay) if isinstance(replay, EpisodeReplay) else _ticks(replay)
     told["digests"] = f"{len(replay.arrays['digests.state'])}, every {replay.header['every']}"
     told["recorded by"] = f"discjump {made['discjump']} (package and crate), " + ", ".join(
-        f"{name} {made[name]}" for name in ("machine", "threads", "lanes", "batch", "index") if made.get(name) is not None
+        f"{name} {made[name]}"
+        for name in ("machine", "threads", "lanes", "batch", "index")
+        if made.get(name) is not None
     )
     return {**told, "size": f"{size:,} bytes"}
 

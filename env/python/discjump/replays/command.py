@@ -11,7 +11,9 @@ from discjump.replays.errors import ReplayError
 
 
 @click.command()
-@click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path), metavar="FILE...")
+@click.argument(
+    "files", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path), metavar="FILE..."
+)
 @click.option("--verify", is_flag=True, help="Play it again, and fail at the first digest that differs.")
 @click.option(
     "--render",
@@ -48,7 +50,9 @@ def replay(files: tuple[Path, ...], verify: bool, render: Path | None, as_json: 
         except (ReplayError, OSError) as error:
             failed += 1
             message = str(error) if str(path) in str(error) else f"{path}: {error}"
-            click.echo(json.dumps({"file": str(path), "error": message}) if as_json else message, err=not as_json)
+            click.echo(
+                json.dumps({"file": str(path), "error": message}) if as_json else message, err=not as_json
+            )
             continue
         failed += mismatch is not None
         if as_json:

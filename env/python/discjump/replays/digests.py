@@ -1,7 +1,7 @@
 """Short digests: 8 bytes of BLAKE2b over named values.
 
-Eight bytes keep a replay small. They tell two runs apart that came apart by accident, all but once in 2^64; who
-forges one on purpose could rewrite the whole file as well.
+Eight bytes keep a replay small. They tell two runs apart that came apart by accident, all but once in 2^64;
+who forges one on purpose could rewrite the whole file as well.
 """
 
 import hashlib

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, fields
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from discjump._native import Terrain
 from discjump.envs.options import SkiOptions
 from discjump.envs.placement import KEYS
 from discjump.replays import grounds
@@ -25,7 +26,6 @@ from discjump.replays.replay import (
     made_here,
 )
 from discjump.replays.tape import Tape
-from discjump.terrains import Terrain
 
 
 class EpisodeReplay(Replay):
@@ -35,8 +35,8 @@ class EpisodeReplay(Replay):
     many decisions, the beginning's first, `final` (1,): the last state where it could still be had.
     """
 
-    HEADER = {"id": str, "seed": int, "episode": int, "reset": dict}
-    ARRAYS = {"actions": ("if", 2), "digests.output": ("u", 2)}
+    HEADER: ClassVar = {"id": str, "seed": int, "episode": int, "reset": dict}
+    ARRAYS: ClassVar = {"actions": ("if", 2), "digests.output": ("u", 2)}
     KIND = "environment"
 
     def __post_init__(self) -> None:
@@ -132,56 +132,63 @@ class EpisodeReplay(Replay):
         except (TypeError, ValueError) as error:
             raise ReplayError(f"replay: discjump does not take what is in it: {error}") from error
 
+    def taped(self, fields: Sequence[str] | None = None) -> Iterator[tuple[Tape, play.Seat, Any, bool]]:
+        """The episode played anew: a tape of it, the environment, its player, and whether it is over.
+
+        Args:
+            fields: of the state that are digested; None: all.
+
+        Raises:
+            ReplayError: this installation cannot play it, or its players lack a field.
+        """
+        tape: Tape | None = None
+        for seat, seen in self.decisions():
+            state = seat.state()[0]
+            names = state.dtype.names
+            if lacking := [name for name in fields or () if name not in names]:
+                raise ReplayError(f"replay: this release's players have no {', '.join(lacking)}")
+            player, over = state[[*(fields or names)]], False
+            if tape is None:
+                observation, info = seen
+                tape = Tape(self.header["every"], player, observation, info, seat.goal())
+            else:
+                observation, reward, flags, info = seen
+                over = flags["terminated"] or flags["truncated"]
+                action = self.actions[tape.decisions]
+                tape.add(action, observation, reward, flags["terminated"], flags["truncated"], info, player)
+            yield tape, seat, player, over
+
     def again(self, decisions: int | None = None) -> EpisodeReplay:
         """The same played anew: digests, final state and outcome are what comes of it here.
 
         Args:
             decisions: so many at most; None: all.
         """
-        rows = self.actions[:decisions]
-        tape, last, terrain = None, None, self.header["terrain"]
-        for seat, seen in self.changed(arrays={"actions": rows}).decisions():
-            last = seat.state()[0]
-            if tape is None:
-                tape = Tape(self.header["every"], last, seen[0], seen[1], seat.goal())
-                terrain = seat.terrain().digest()
-            else:
-                observation, reward, flags, info = seen
-                tape.add(rows[tape.decisions], observation, reward, *flags.values(), info, last)
-                if any(flags.values()):
-                    break
-        assert tape is not None
+        for found in self.changed(arrays={"actions": self.actions[:decisions]}).taped():
+            tape, seat, last, over = found
+            if over:
+                break
         tape.cut(last)
+        terrain = seat.terrain().digest()
         arrays = {**self.arrays, **tape.arrays(self.options["actions"])}
         made = made_here(**{name: self.made.get(name) for name in ("lanes", "batch", "index")})
         return EpisodeReplay({**self.header, "terrain": terrain, "made": made, **tape.header()}, arrays)
 
     def verify(self) -> Mismatch | None:
-        """See `Replay.verify`. Actions past the episode's end, or none where it goes on, are differences too."""
-        tape, state, compared = None, None, 0
-        every, wanted = self.header["every"], self.header["fields"]
-        for seat, seen in self.decisions():
-            state = seat.state()[0]
-            if tape is None:
-                lacking = [name for name in wanted if name not in state.dtype.names]
-                if lacking:
-                    raise ReplayError(f"replay: this release's players have no {', '.join(lacking)}")
-                tape = Tape(every, state[wanted], seen[0], seen[1], seat.goal())
-                if (got := seat.terrain().digest()) != self.header["terrain"]:
-                    return Mismatch("terrain", 0, 0, self.header["terrain"], got)
-            else:
-                observation, reward, flags, info = seen
-                action = self.actions[tape.decisions]
-                tape.add(action, observation, reward, *flags.values(), info, state[wanted])
-                if any(flags.values()) and tape.decisions < len(self.actions):
-                    return Mismatch("length", *[tape.decisions] * 2, len(self.actions), tape.decisions)
+        """See `Replay.verify`. Actions past the episode's end, or none where it goes on, differ, too."""
+        compared = 0
+        for tape, seat, player, over in self.taped(self.header["fields"]):
+            last, taken = player, tape.decisions
+            if taken == 0 and (got := seat.terrain().digest()) != self.header["terrain"]:
+                return Mismatch("terrain", 0, 0, self.header["terrain"], got)
+            if over and taken < len(self.actions):
+                return Mismatch("length", taken, taken, len(self.actions), taken)
             if len(tape.states) > compared:
                 compared = len(tape.states)
                 if found := self._compare(tape):
                     return found
-        assert tape is not None
-        tape.cut(state[wanted])
-        return self._compare(tape) or self._ends(tape, state)
+        tape.cut(last)
+        return self._compare(tape) or self._ends(tape, last)
 
     def _compare(self, tape: Tape) -> Mismatch | None:
         """The latest digest of the tape, if it is not the replay's."""
@@ -201,13 +208,13 @@ class EpisodeReplay(Replay):
 
     def _ends(self, tape: Tape, state: Any) -> Mismatch | None:
         """What differs at the end: the number of digests, the final state, the outcome."""
-        last = (tape.decisions, tape.decisions)
+        last = tape.decisions, tape.decisions
         for field, got in (("state", tape.states), ("output", tape.outputs)):
             expected = len(self.arrays[f"digests.{field}"])
             if expected != len(got):
                 return Mismatch(f"number of digests of {field}", *last, expected, len(got))
-        final = self.arrays.get("final")
-        for name in () if final is None else final.dtype.names or ():
+        final = self.arrays.get("final", np.zeros(0))
+        for name in final.dtype.names or ():
             if final[name][0].tobytes() != np.asarray(state[name]).tobytes():
                 return Mismatch(f"final state.{name}", *last, final[name][0], state[name])
         if (self.outcome is None) != (tape.outcome is None):

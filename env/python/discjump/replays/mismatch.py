@@ -9,10 +9,10 @@ class Mismatch:
     """The first difference that was found.
 
     Attributes:
-        field: what differs: `state`, `output` (observations, rewards, flags, info), a field of the final state
-            or of the outcome.
-        first, last: the decisions (ticks in a simulator's replay) after one of which it appeared, counted from
-            1; both 0: it is there from the beginning.
+        field: what differs: `state`, `output` (observations, rewards, flags, info), a field of the final
+            state or of the outcome.
+        first, last: the decisions (ticks in a simulator's replay) after one of which it appeared, counted
+            from 1; both 0: it is there from the beginning.
         expected: what the replay says.
         got: what the repetition gives.
         unit: what is counted.

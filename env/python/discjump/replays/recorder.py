@@ -16,8 +16,9 @@ from discjump.replays.tape import Tape
 class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
     """Records every episode of a discjump environment.
 
-    It must lie directly round the environment (and what `gymnasium.make` puts round it): a wrapper inside that
-    changes actions would be recorded as if it were not there.
+    It must lie directly round the environment (and what `gymnasium.make` puts round it): a wrapper inside
+    that changes actions would be recorded as if it were not there. So must a `restore` not happen inside an
+    episode: a replay is played from its beginning.
 
     Args:
         env: to be recorded.
@@ -29,7 +30,7 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
         replays: finished replays, where neither `folder` nor `on_replay` takes them.
 
     >>> import gymnasium, discjump
-    >>> env = record(gymnasium.make("discjump/Ski-v0", terrain_seeds=[0], time_limit=1.0))
+    >>> env = Recorder(gymnasium.make("discjump/Ski-v0", terrain_seeds=[0], time_limit=1.0))
     >>> observation, info = env.reset(seed=3)
     >>> for _ in range(8):
     ...     step = env.step(np.array([2, 1, 1, 0, 3]))

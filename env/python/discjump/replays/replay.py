@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -40,9 +40,15 @@ class Replay(ABC):
     arrays: Arrays
 
     #: Types that the header's entries must have.
-    HEADER = {"kind": str, "made": dict, "options": dict, "every": int, "fields": list}
+    HEADER: ClassVar[dict[str, type]] = {
+        "kind": str,
+        "made": dict,
+        "options": dict,
+        "every": int,
+        "fields": list,
+    }
     #: Kind, dtype's kinds and dimensions that arrays must have.
-    ARRAYS = {"digests.state": ("u", 2)}
+    ARRAYS: ClassVar[dict[str, tuple[str, int]]] = {"digests.state": ("u", 2)}
     KIND = ""
 
     def __post_init__(self) -> None:

@@ -57,7 +57,7 @@ def id_of(env: Any) -> str:
 
 
 def placed_at(options: Mapping[str, Any] | None, row: int | None) -> dict[str, Any]:
-    """Where a reset's options put one environment: its own row of what has one each; a row of NaN is drawn."""
+    """Where a reset's options put one environment: its row of what has one each; a row of NaN is drawn."""
     placed: dict[str, Any] = {}
     for key in KEYS:
         value = (options or {}).get(key)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,13 +42,14 @@ SHOTS = ("projectiles", "blasts")
 class TickReplay(Replay):
     """Ticks of a simulator: its arguments, where its players were, and the inputs of every tick.
 
-    Arrays: `state` (players,) at the beginning (with `snapshot`, its bytes, where projectiles were under way),
-    `inputs` (ticks, players), `explosions.tick` (k,) before which there were explosions at `explosions.points`
-    (k, players, 3), `digests.state` (1 + stretches, 8), `final` (players,).
+    Arrays: `state` (players,) at the beginning (with `snapshot`, its bytes, where projectiles were under
+    way),
+    `inputs` (ticks, players), `explosions.tick` (k,) before which there were explosions at
+    `explosions.points` (k, players, 3), `digests.state` (1 + stretches, 8), `final` (players,).
     """
 
-    HEADER = {"terrain": dict, "players": int, "explosions": list}
-    ARRAYS = {
+    HEADER: ClassVar = {"terrain": dict, "players": int, "explosions": list}
+    ARRAYS: ClassVar = {
         "state": ("V", 1),
         "inputs": ("V", 2),
         "explosions.tick": ("iu", 1),
@@ -85,7 +86,7 @@ class TickReplay(Replay):
         Args:
             terrain: of the simulator.
             inputs: dtype `INPUT`, shape (ticks, players).
-            state: where the players begin, (players,), fields as in the simulator's dtype; None: as fresh ones.
+            state: where the players begin, (players,), fields as the simulator's; None: as fresh ones.
             snapshot: of such a simulator, in place of `state`: with projectiles under way.
             explosions: points (players, 3) by the tick before which they go off.
             weapons: whose explosions they are, in order of their ticks; discs where there are none.
@@ -95,7 +96,7 @@ class TickReplay(Replay):
         Raises:
             TypeError, ValueError: as `Simulator`.
         """
-        ticks, players = inputs.shape
+        players = inputs.shape[1]
         sim = Simulator(terrain, players, **arguments)
         if snapshot is not None:
             sim.restore(snapshot)

@@ -56,9 +56,7 @@ class VectorRecorder(VectorWrapper):
         """Finished replays that went nowhere else."""
         return self._shelf.replays
 
-    def reset(
-        self, *, seed: Any = None, options: dict[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Start episodes; those under way where one is started are cut off."""
         # Whose episode ends here must be known while its state is still there.
         mask = (options or {}).get("reset_mask")

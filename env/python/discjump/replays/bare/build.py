@@ -138,4 +138,6 @@ def _made(name: str, kind: type, plain: Mapping[str, Any]) -> Any:
     try:
         return kind(**plain)
     except (TypeError, ValueError) as error:
-        raise CannotBuild(f"{name}: discjump {discjump.__version__} does not take {plain}: {error}") from error
+        raise CannotBuild(
+            f"{name}: discjump {discjump.__version__} does not take {plain}: {error}"
+        ) from error

@@ -1,8 +1,8 @@
 """Plain data as bytes: a header of JSON's types, then arrays of numbers. Reading them runs no code.
 
-    4 bytes   length of the header, little-endian
-    header    JSON, UTF-8; its key "arrays" lists name, dtype and shape of each array
-    arrays    one after the other, in C order
+4 bytes   length of the header, little-endian
+header    JSON, UTF-8; its key "arrays" lists name, dtype and shape of each array
+arrays    one after the other, in C order
 """
 
 import json

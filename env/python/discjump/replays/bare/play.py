@@ -36,9 +36,9 @@ class Frame(NamedTuple):
     Attributes:
         tick: ticks played.
         over: whether the recording ends here.
-        values: by name. Of an environment the `action`, `state` (its player), `terminated` and `truncated` after
-            every tick; where a decision ends also its `observation`, `reward`, `info` and flags. Of a simulator
-            `inputs` and `state` (n,), `projectiles` and `blasts`.
+        values: by name. Of an environment the `action`, `state` (its player), `terminated` and `truncated`
+            after every tick; where a decision ends also its `observation`, `reward`, `info` and flags. Of a
+            simulator `inputs` and `state` (n,), `projectiles` and `blasts`.
     """
 
     tick: int
@@ -72,9 +72,9 @@ def environment_frames(header: Header, arrays: Arrays, way: Way) -> Iterator[Fra
     for action in arrays["actions"]:
         for last in [False] * (skip - 1) + [True]:
             tick += 1
-            flags = _named("", ticks.step(action)[2])
-            values = {"action": action, "state": ticks.state(), **flags}
-            ended = any(flags[name].any() for name in flags)
+            flags = ticks.step(action)[2]
+            values = {"action": action, "state": ticks.state(), **_named("", flags)}
+            ended = any(flags.values())
             over = ended
             if last or ended:
                 observation, reward, flags, info = decisions.step(action)

@@ -6,7 +6,7 @@ A message is 8 bytes of length, little-endian, and so many bytes of `codec`.
 import platform
 import struct
 import sys
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 from . import build, play
 from .codec import Arrays, Header, decode, encode
@@ -14,14 +14,14 @@ from .codec import Arrays, Header, decode, encode
 _LENGTH = struct.Struct("<Q")
 
 
-def send(pipe: BinaryIO, header: Header, arrays: Arrays) -> None:
+def send(pipe: IO[bytes], header: Header, arrays: Arrays) -> None:
     """Write a message."""
     data = encode(header, arrays)
     pipe.write(_LENGTH.pack(len(data)) + data)
     pipe.flush()
 
 
-def receive(pipe: BinaryIO) -> tuple[Header, Arrays] | None:
+def receive(pipe: IO[bytes]) -> tuple[Header, Arrays] | None:
     """The next message; None where the other end is closed.
 
     Raises:
