@@ -9,10 +9,12 @@
 //! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
+//! * `calls`: who may call, Ctrl-C, panics
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
 mod blast;
+mod calls;
 mod errors;
 mod measure;
 mod physics;
