@@ -220,3 +220,54 @@ def test_no_worker_is_left_behind(folder, tmp_path):
     (pid,) = pids.read_text().split()
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid), 0)
+
+
+# ------------------------------------------------------------------------------------ certificates
+
+
+def certificate(path: Path, digests: dict[str, dict[str, str]], failed: bool = False) -> Path:
+    rows = [{"subject": "discjump/Ski-v0", "tier": "fast", "row": "threads", "result": "fail"}]
+    record = {
+        "schema": "discjump-certificate/1",
+        "versions": {"discjump": "0.1.0"},
+        "machine": {"processor": "a processor"},
+        "digests": {
+            subject: {tier: {"digest": digest, "environments": 2} for tier, digest in tiers.items()}
+            for subject, tiers in digests.items()
+        },
+        "rows": rows if failed else [],
+    }
+    path.write_text(json.dumps(record))
+    return path
+
+
+def test_certificates_are_compared(tmp_path):
+    ski, mission = "discjump/Ski-v0", "scene mission"
+    a = certificate(tmp_path / "a.json", {ski: {"fast": "1", "swept": "2"}, mission: {"fast": "3"}})
+    b = certificate(tmp_path / "b.json", {ski: {"fast": "1", "swept": "9"}, mission: {}}, failed=True)
+    result = run("bisect", a, b)
+    assert result.exit_code == 1, result.output
+    assert "1 of 2 digests that both have are equal" in result.output
+    assert "differ: discjump/Ski-v0, swept" in result.output
+    assert "fails by itself: discjump/Ski-v0, fast, threads" in result.output
+    assert "say which interpreter has the other build" in result.output
+    assert run("bisect", a, a).exit_code == 0
+    for other, message in ((tmp_path / "c.json", "expected a certificate like A"), (f"{b},seed=3", "seed")):
+        result = run("bisect", a, other)
+        assert result.exit_code == 2
+        assert message in result.output
+
+
+def test_builds_of_certificates_are_run_against_each_other(tmp_path):
+    """The episodes are those that the certificates' digests are of."""
+    pytest.importorskip("discjump.verify")
+    a = certificate(tmp_path / "a.json", {"discjump/Ski-v0": {"authentic": "1"}})
+    b = certificate(tmp_path / "b.json", {"discjump/Ski-v0": {"authentic": "2"}})
+    python = installation(tmp_path / "other", NUDGE)
+    result = run("bisect", a, f"{b},python={python}", "--out", tmp_path)
+    assert result.exit_code == 1, result.output
+    assert "discjump/Ski-v0, authentic, seed 0" in result.output
+    assert json.loads((tmp_path / "bisect.json").read_text())["tick"] == 37
+    same = installation(tmp_path / "same", "")
+    result = run("bisect", a, f"{b},python={same}", "--out", tmp_path)
+    assert result.exit_code == 0, result.output

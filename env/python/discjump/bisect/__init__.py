@@ -5,10 +5,13 @@
     ulps        how far two floating-point numbers are apart
     lockstep    the first difference between two streams
     start       a replay that starts there
+    contacts    what is touched in that tick
+    certificates  two certificates of `discjump verify`: the episodes that differ
     report      what is printed
     command     `discjump bisect`
 
-Arrows point down only: command -> report, start -> lockstep -> streams -> sides -> discjump.replays.
+Arrows point down only: command -> certificates, report, contacts -> start -> lockstep -> streams ->
+sides -> discjump.replays.
 """
 
 from discjump.bisect.lockstep import Difference, Parting, bisect

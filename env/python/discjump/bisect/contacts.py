@@ -1,5 +1,8 @@
 """What a player touches in the tick after which two sides differ."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from discjump._text import shown
 from discjump.bisect.lockstep import Parting
 from discjump.bisect.sides import Side
@@ -18,11 +21,15 @@ def _of(side: Side, parting: Parting, k: int) -> list[str]:
         return ["not known: another installation plays it"]
     sim, inputs, _ = just_before(side, parting, k)
     row = parting.difference.row
-    query = getattr(sim, "contacts", None)
-    if query is None:
-        return ["not known"]
-    found = query(row, inputs[0, row])
+    found = sim.contacts(row, inputs[0, row])
+    real = sim.state_dtype["velocity"].base
     return [
-        f"at {shown(one['position'])} m, moving {shown(one['velocity'])} m/s, normal {shown(one['normal'])}"
+        f"at {_in(real, one['position'])} m, moving {_in(real, one['velocity'])} m/s, "
+        f"normal {_in(real, one['normal'])}"
         for one in found
     ] or ["none"]
+
+
+def _in(real: np.dtype[np.generic], vector: NDArray[np.float64]) -> str:
+    """A vector in the digits of the tier's arithmetic."""
+    return shown(vector.astype(real))

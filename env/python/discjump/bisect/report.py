@@ -39,7 +39,7 @@ def text(sides: tuple[Side, Side], outcome: Outcome, contacts: Contacts) -> str:
     if contacts[0] == contacts[1]:
         lines += listed("contacts", contacts[0])
     else:
-        lines += [*listed("contacts, A", contacts[0]), *listed("contacts, B", contacts[1])]
+        lines += [*listed("contacts A", contacts[0]), *listed("contacts B", contacts[1])]
     if parting.others:
         lines += ["", f"  also apart: {', '.join(parting.others)}"]
     return "\n".join([*lines, "", *table(parting)])
@@ -92,19 +92,21 @@ def keys(replay: Replay, parting: Parting) -> str:
 
 
 def table(parting: Parting) -> list[str]:
-    """The player before the tick, and after it on both sides."""
+    """The player's fields: before the tick, and after it on both sides; what is equal is said once."""
     row = parting.difference.row
-    before = None if parting.before is None else parting.before[0].values["state"][row]
-    a, b = (frame.values["state"][row] for frame in parting.after)
-    lines = [f"  {'':<12}before (A)"] if before is not None else []
-    lines += [f"  {'':<14}after, A", f"  {'':<14}after, B"]
-    for name in a.dtype.names or ():
-        if before is not None:
-            lines.append(f"  {name:<12}{shown(before[name])}")
-        label = "" if before is not None else name
-        lines.append(f"  {label:<12}  {shown(a[name])}")
-        if name in (b.dtype.names or ()) and shown(a[name]) != shown(b[name]):
-            lines.append(f"  {'':<12}! {shown(b[name])}")
+    frames = [*(() if parting.before is None else parting.before[:1]), *parting.after]
+    labels = ["before"] * (len(frames) - 2) + ["A", "B"]
+    states = [frame.values["state"][row] for frame in frames]
+    lines = []
+    for name in states[0].dtype.names or ():
+        values = [shown(state[name]) if name in (state.dtype.names or ()) else "absent" for state in states]
+        told: dict[str, list[str]] = {}
+        for label, value in zip(labels, values, strict=True):
+            told.setdefault(value, []).append(label)
+        lines += [
+            f"  {name if k == 0 else '':<12}{', '.join(who):<14}{value}"
+            for k, (value, who) in enumerate(told.items())
+        ]
     return lines
 
 
