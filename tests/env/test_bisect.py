@@ -6,6 +6,7 @@ environment that is played alone, in a batch or on threads must never part from 
 """
 
 import itertools
+import re
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 
 import discjump
 from discjump.bisect import Parting, Side, bisect, ulps
+from discjump.bisect.contacts import contact_list
 from discjump.bisect.lockstep import differences
 from discjump.bisect.sides import SideError, split
 from discjump.bisect.start import changes, inputs_of, starting
@@ -176,6 +178,23 @@ def test_one_that_ends_sooner_parts_there(run, path, tmp_path):
     parting = parted(Side.parsed(str(path)), Side.parsed(str(short)))
     assert (parting.tick, parting.difference.field) == (36, "end")
     assert (parting.difference.a, parting.difference.b) == ("goes on", "over")
+
+
+def test_contacts_lie_on_the_ground_with_its_normals(tmp_path):
+    """Where two tiers part at a crease, both sides' contacts are of faces that are there."""
+    both = sides(episode(seed=10, **LONG).save(tmp_path / "crease.replay"), "fidelity=fast")
+    parting = parted(*both)
+    ground = discjump.Terrain.raindance(0)
+    told = contact_list(both, parting)
+    assert told[0] != told[1]
+    assert [len(lines) for lines in told] == [2, 2]
+    for line in itertools.chain(*told):
+        numbers = [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", line)]
+        position, normal = np.array(numbers[:3]), np.array(numbers[6:])
+        # Either face where the contact is on the edge between two.
+        near = position[:2] + 1e-3 * np.array([*itertools.product((-1, 0, 1), repeat=2)])
+        assert np.abs(ground.normal(near) - normal).max(axis=1).min() < 1e-5
+        assert abs(ground.height(position[:2][None])[0] - position[2]) < 0.02
 
 
 # ------------------------------------------------------------------------------------ the replay from there
