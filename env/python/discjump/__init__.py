@@ -13,6 +13,7 @@
     stress      whether the simulator stands its extremes
     replays     episodes and ticks in files, played again bit for bit
     bisect      where two runs part
+    testing     conformance of any vector environment, for other people's CI
     cli         the command `discjump`
 
 Arrows point down only: cli -> accuracy, features, theory, stress, bisect, sb3 -> replays -> envs ->
