@@ -170,6 +170,8 @@ pub trait Environments: Send + Sync {
     /// # Panics
     /// If there is no such environment.
     fn status_of(&self, index: usize) -> Status;
+    /// Seed and number of every environment's episode, which together name it; (0, 0) before its first reset.
+    fn episodes(&self) -> Vec<(u64, u64)>;
     /// World position of every beacon, m.
     fn goals(&self) -> Vec<[f64; 3]>;
     /// The fields of a player's state after `position` (three f64), packed.

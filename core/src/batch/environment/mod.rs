@@ -293,6 +293,10 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         self.describe(&block.player.lane(lane), &block.run.lane(lane), &self.episode(index))
     }
 
+    fn episodes(&self) -> Vec<(u64, u64)> {
+        (0..self.setup.count).map(|i| self.episode(i)).map(|e| (e.seed, e.episode)).collect()
+    }
+
     fn goals(&self) -> Vec<[f64; 3]> {
         self.each()
             .map(|(_, run, _)| {
