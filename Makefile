@@ -164,6 +164,21 @@ fuzz: ## Coverage-guided search for FUZZ_SECONDS (wants `cargo install cargo-fuz
 	  -max_len=120 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
 	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz cmin ticks --sanitizer none
 
+# Sanitizers and Miri want a nightly toolchain: rustup toolchain install nightly --component miri,rust-src
+HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+.PHONY: sanitize miri
+sanitize: ## Unsafe code under AddressSanitizer, the pool under ThreadSanitizer (wants nightly with rust-src)
+	RUSTFLAGS=-Zsanitizer=address cargo +nightly test --quiet --locked --target $(HOST) --target-dir target/address \
+	  -p discjump-core --lib --test lanes --test lanes_episodes --test snapshots --test stopped --test determinism \
+	  --test worlds --test solids
+	RUSTFLAGS=-Zsanitizer=thread cargo +nightly test --quiet --locked -Zbuild-std --target $(HOST) \
+	  --target-dir target/thread -p discjump-core --test stopped --test determinism --test worlds
+
+# Every operation of every lane against the scalar's takes hours there.
+miri: ## Lanes of AVX2 in Miri (wants nightly with miri and rust-src)
+	RUSTFLAGS=-Ctarget-feature=+avx2 MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test --quiet --locked \
+	  --target-dir target/miri -p discjump-core --lib --no-default-features --features ski -- --skip every_operation
+
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile
 	cargo bench --locked -p discjump-core
