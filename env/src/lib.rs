@@ -8,11 +8,13 @@
 //! * `blast`: the explosion formulas for arrays
 //! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
+//! * `build`: what this library was built for
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
 mod blast;
+mod build;
 mod errors;
 mod measure;
 mod physics;
@@ -29,6 +31,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::blast::blast_falloff;
+    #[pymodule_export]
+    use crate::build::build;
     #[pymodule_export]
     use crate::measure::{time_environments, time_players, time_resets};
     #[pymodule_export]

@@ -15,6 +15,7 @@ from discjump.features.command import features
 from discjump.stress.command import stress
 from discjump.terrain_command import terrain
 from discjump.theory.command import theory
+from discjump.verify.command import verify
 
 GROUP = "discjump.commands"
 
@@ -66,6 +67,7 @@ main.add_command(features)
 main.add_command(stress)
 main.add_command(terrain)
 main.add_command(theory)
+main.add_command(verify)
 
 
 def _entries() -> dict[str, EntryPoint]:
