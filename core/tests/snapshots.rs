@@ -158,14 +158,13 @@ type Change = fn(&mut SkiEnvironments);
 fn an_environments_snapshot_of_another_layout_or_count_is_refused() {
     let mut envs = Envs::seeded(ski(2, "authentic"), &[1, 2]);
     let before = envs.batch.digest();
-    let changes: [(&str, Change); 9] = [
+    let changes: [(&str, Change); 8] = [
         ("count", |s| s.count = 3),
         ("tier", |s| s.fidelity = "reference".into()),
         ("armor", |s| s.armor = "medium".into()),
         ("frame_skip", |s| s.task.frame_skip = 5),
         ("time limit", |s| s.task.time_limit = 251),
         ("reward", |s| s.task.reward.time = 0.0),
-        ("autoreset", |s| s.autoreset = Autoreset::Disabled),
         ("terrain", |s| s.maps = Maps::new(&[rolling(), rolling()]).unwrap().into()),
         // The next episodes are drawn within it.
         ("area", |s| s.areas[1].max[0] += 1.0),
@@ -178,5 +177,34 @@ fn an_environments_snapshot_of_another_layout_or_count_is_refused() {
         let error = envs.batch.restore(&other.batch.snapshot()).expect_err(what).to_string();
         assert!(error.starts_with("snapshot: "), "{what}: {error}");
         assert_eq!(envs.batch.digest(), before, "{what}");
+    }
+}
+
+#[test]
+fn one_player_or_environment_is_moved_between_batches() {
+    for tier in TIERS {
+        let mut many = simulator(9, 1, tier);
+        let names: Vec<u64> = (1..=9).collect();
+        play(&mut *many, &names, 0..60);
+        let mut few = simulator(2, 1, tier);
+        few.restore_one(1, &many.snapshot_one(6).unwrap()).unwrap();
+        assert_eq!(few.snapshot_one(1), many.snapshot_one(6));
+        play(&mut *many, &names, 60..90);
+        play(&mut *few, &[77, 7], 60..90);
+        assert_eq!(few.snapshot_one(1), many.snapshot_one(6), "{tier}");
+        let before = few.snapshot();
+        let whole = many.snapshot();
+        for (player, bytes) in [(2, &many.snapshot_one(0).unwrap()), (0, &whole)] {
+            assert!(few.restore_one(player, bytes).is_err());
+            assert_eq!(few.snapshot(), before);
+        }
+        assert!(many.snapshot_one(9).is_err());
+
+        let mut envs = Envs::seeded(ski(9, tier), &names);
+        (0..20).for_each(|_| envs.play());
+        let mut other = Envs::seeded(ski(1, tier), &[50]);
+        other.batch.restore_one(0, &envs.batch.snapshot_one(8).unwrap()).unwrap();
+        assert_eq!(other.batch.snapshot_one(0), envs.batch.snapshot_one(8));
+        assert!(envs.batch.snapshot_one(9).is_err());
     }
 }

@@ -10,11 +10,13 @@
 //! * `pools`: maps that batches share
 //! * `build`: what this library was built for
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
+//! * `calls`: who may call, Ctrl-C, panics
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
 mod blast;
 mod build;
+mod calls;
 mod errors;
 mod measure;
 mod physics;

@@ -1,15 +1,19 @@
 //! `Simulator`: bodies without a task. The package wraps it; here arrays are bytes.
 
 use crate::arrays::{dtype, rows, structured};
-use crate::errors::refused;
+use crate::calls::{away, exclusive, here, shared};
+use crate::errors::{refused, unusable};
 use crate::physics::PhysicsArgument;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Bodies, RawInput, Shot, SimulatorSetup};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::time::{Duration, Instant};
 
-/// Player-ticks between two looks at pending signals: some 20 ms of work.
-const BURST: usize = 200_000;
+/// Player-ticks before the first look at pending signals.
+const BURST: usize = 20_000;
+/// Time between two looks: whole ticks are played in between, as many as take about so long.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
 
 /// Bytes of one input: the aligned layout of `discjump.INPUT`.
 pub const INPUT_BYTES: usize = size_of::<RawInput>();
@@ -21,6 +25,13 @@ pub struct Simulator {
 }
 
 impl Simulator {
+    /// The simulator, for reading, unless a step ended half-way.
+    fn whole<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRef<'py, Self>> {
+        let this = shared(slf)?;
+        this.bodies.whole().map_err(unusable)?;
+        Ok(this)
+    }
+
     fn fields(&self) -> Vec<(&'static str, &'static str, usize)> {
         state_fields(&self.bodies.state_fields())
     }
@@ -76,96 +87,142 @@ impl Simulator {
 
     /// How many players.
     #[getter]
-    fn num_players(&self) -> usize {
-        self.bodies.len()
+    fn num_players(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.bodies.len())
     }
 
     /// Players stepped side by side.
     #[getter]
-    fn lanes(&self) -> usize {
-        self.bodies.lanes()
+    fn lanes(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.bodies.lanes())
     }
 
     /// "float32" or "float64".
     #[getter]
-    fn precision(&self) -> &'static str {
-        self.bodies.precision()
+    fn precision(slf: &Bound<'_, Self>) -> PyResult<&'static str> {
+        Ok(shared(slf)?.bodies.precision())
     }
 
     /// The scene's name.
     #[getter]
-    fn scene(&self) -> &'static str {
-        self.bodies.scene()
+    fn scene(slf: &Bound<'_, Self>) -> PyResult<&'static str> {
+        Ok(shared(slf)?.bodies.scene())
     }
 
     /// Bytes that one player takes in memory.
     #[getter]
-    fn player_bytes(&self) -> usize {
-        self.bodies.player_bytes()
+    fn player_bytes(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.bodies.player_bytes())
     }
 
     /// The structured dtype of `state()`.
     #[getter]
-    fn state_dtype<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        dtype(py, &self.fields())
+    fn state_dtype<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        dtype(slf.py(), &shared(slf)?.fields())
     }
 
     /// A copy of all states: structured, shape (num_players,).
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        structured(py, &self.fields(), &self.bodies.state())
+    fn state<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let this = Self::whole(slf)?;
+        structured(slf.py(), &this.fields(), &this.bodies.state())
     }
 
     /// Overwrites states, given as packed bytes of `state_dtype`.
-    fn set_state(&mut self, indices: Vec<usize>, states: &[u8]) -> PyResult<()> {
-        self.bodies.set_state(&indices, states).map_err(refused)
+    fn set_state(slf: &Bound<'_, Self>, indices: Vec<usize>, states: &[u8]) -> PyResult<()> {
+        Self::whole(slf)?;
+        exclusive(slf)?.bodies.set_state(&indices, states).map_err(refused)
     }
 
     /// Plays `ticks` ticks of inputs given as bytes of `discjump.INPUT`.
-    fn step(&mut self, py: Python<'_>, inputs: &[u8], ticks: u32) -> PyResult<()> {
-        let inputs: Vec<RawInput> = inputs.chunks_exact(INPUT_BYTES).map(read_input).collect();
-        let burst = u32::try_from(BURST / self.bodies.len().max(1)).unwrap_or(u32::MAX).max(1);
+    fn step(slf: &Bound<'_, Self>, inputs: &[u8], ticks: u32) -> PyResult<()> {
+        Self::whole(slf)?;
+        let (py, mut this) = (slf.py(), exclusive(slf)?);
+        let bodies = &mut this.bodies;
+        let mut keys: Vec<RawInput> = Vec::with_capacity(bodies.len());
+        for some in inputs.chunks(INPUT_BYTES << 18) {
+            keys.extend(some.chunks_exact(INPUT_BYTES).map(read_input));
+            py.check_signals()?;
+        }
+        let mut burst = u32::try_from(BURST / bodies.len().max(1)).unwrap_or(u32::MAX).max(1);
         let mut left = ticks;
         loop {
-            let now = left.min(burst);
-            py.detach(|| self.bodies.step(&inputs, now)).map_err(refused)?;
+            let (now, began) = (left.min(burst), Instant::now());
+            away(py, |go_on| bodies.step_while(&keys, now, go_on))?;
             left -= now;
             if left == 0 {
                 return Ok(());
             }
             py.check_signals()?;
+            let took = began.elapsed();
+            if took > 2 * BETWEEN_LOOKS {
+                burst = (burst / 2).max(1);
+            } else if took < BETWEEN_LOOKS {
+                burst = burst.saturating_mul(2);
+            }
         }
     }
 
     /// One explosion per player at points (num_players, 3), m; NaN: none.
-    fn explode(&mut self, py: Python<'_>, points: &Bound<'_, PyAny>, weapon: &str) -> PyResult<()> {
-        let (points, _) = rows(py, "points", points, &[3])?;
+    fn explode(slf: &Bound<'_, Self>, points: &Bound<'_, PyAny>, weapon: &str) -> PyResult<()> {
+        Self::whole(slf)?;
+        let (points, _) = rows(slf.py(), "points", points, &[3])?;
         let points: Vec<[f64; 3]> = points.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-        self.bodies.explode(&points, weapon).map_err(refused)
+        let mut this = exclusive(slf)?;
+        here(|| this.bodies.explode(&points, weapon))
     }
 
     /// The projectiles that burst in the last tick: structured.
-    fn blasts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        shots(py, &self.bodies.blasts(), "normal")
+    fn blasts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        shots(slf.py(), &Self::whole(slf)?.bodies.blasts(), "normal")
     }
 
     /// The projectiles under way: structured.
-    fn projectiles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        shots(py, &self.bodies.projectiles(), "aim")
+    fn projectiles<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        shots(slf.py(), &Self::whole(slf)?.bodies.projectiles(), "aim")
     }
 
-    /// Everything, as bytes that `restore` takes.
-    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.bodies.snapshot())
+    /// The contacts of a player's next tick with an input, given as bytes of `discjump.INPUT`: structured.
+    fn contacts<'py>(slf: &Bound<'py, Self>, player: usize, input: &[u8]) -> PyResult<Bound<'py, PyAny>> {
+        let this = Self::whole(slf)?;
+        let mut bytes = Vec::new();
+        for contact in here(|| this.bodies.contacts(player, &read_input(input)))? {
+            let numbers = [contact.position, contact.velocity, contact.normal];
+            numbers.as_flattened().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        }
+        let fields = [("position", "<f8", 3), ("velocity", "<f8", 3), ("normal", "<f8", 3)];
+        structured(slf.py(), &fields, &bytes)
     }
 
-    /// Goes back to a snapshot of a simulator with the same terrain and arguments.
-    fn restore(&mut self, snapshot: &[u8]) -> PyResult<()> {
-        self.bodies.restore(snapshot).map_err(refused)
+    /// Everything, or everything of one player, as bytes that `restore` takes.
+    #[pyo3(signature = (player=None))]
+    fn snapshot<'py>(slf: &Bound<'py, Self>, player: Option<usize>) -> PyResult<Bound<'py, PyBytes>> {
+        let this = Self::whole(slf)?;
+        let bytes = match player {
+            Some(player) => this.bodies.snapshot_one(player).map_err(refused)?,
+            None => this.bodies.snapshot(),
+        };
+        Ok(PyBytes::new(slf.py(), &bytes))
+    }
+
+    /// Goes back to a snapshot of a simulator with the same terrain and arguments, or puts one player there.
+    #[pyo3(signature = (snapshot, player=None))]
+    fn restore(slf: &Bound<'_, Self>, snapshot: &[u8], player: Option<usize>) -> PyResult<()> {
+        let mut this = exclusive(slf)?;
+        here(|| match player {
+            Some(player) => this.bodies.restore_one(player, snapshot),
+            None => this.bodies.restore(snapshot),
+        })
     }
 
     /// 32 hexadecimal digits that name the players' exact bits.
-    fn digest(&self) -> String {
-        self.bodies.digest()
+    fn digest(slf: &Bound<'_, Self>) -> PyResult<String> {
+        Ok(Self::whole(slf)?.bodies.digest())
+    }
+
+    /// Makes the next step fail half-way, as a defect would: for tests of what comes after.
+    fn fail_next_step(slf: &Bound<'_, Self>) -> PyResult<()> {
+        exclusive(slf)?.bodies.fail_next_step();
+        Ok(())
     }
 }
 

@@ -14,8 +14,10 @@ mod stage;
 
 #[cfg(feature = "ski")]
 pub use environment::{
-    Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
+    Autoreset, Environments, LifeStage, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput,
+    StepOutput,
 };
+pub use neighbourhood::Contact;
 pub use pool::{INLINE_BELOW, MAX_THREADS};
 pub use raw_input::RawInput;
 pub use simulator::{

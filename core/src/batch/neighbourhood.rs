@@ -5,11 +5,24 @@
 use super::crowd::{meet_box, meet_sphere};
 use super::stage::Stage;
 use crate::movement::Obstacles;
-use crate::player::Place;
+use crate::player::{Place, Player};
 use crate::real::{Scalar, V3};
+use crate::scene::Scene;
 use crate::solids::{SolidHit, Solids};
 use crate::terrain::{Hit, Surface};
 use glam::{DVec3, IVec2};
+use std::cell::RefCell;
+
+/// A contact of a player, before it acted on him.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// World position of the player's feet there, m.
+    pub position: [f64; 3],
+    /// His velocity, m/s.
+    pub velocity: [f64; 3],
+    /// The surface's unit normal.
+    pub normal: [f64; 3],
+}
 
 /// Feet of a player: local position and tile.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +51,8 @@ pub(super) struct Neighbourhood<'a, T: Scalar> {
     pub(super) stands: &'a [Stand],
     /// Whose way it is: his own body is not in it.
     pub(super) me: usize,
+    /// Where his contacts are written down, for those who ask.
+    pub(super) log: Option<&'a RefCell<Vec<Contact>>>,
 }
 
 fn hit<T: Scalar>(fraction: f64, normal: DVec3) -> Hit<T> {
@@ -81,6 +96,17 @@ impl<T: Scalar> Obstacles<T> for Neighbourhood<'_, T> {
 
     fn surface(&self) -> &Surface<'_, T> {
         &self.stage.surface
+    }
+
+    fn note<S: Scene>(&self, p: &Player<S, T>, hit: bool, point: V3<T>, normal: V3<T>) {
+        if let (Some(log), true) = (self.log, hit) {
+            let place = Place { position: point, ..p.place() };
+            log.borrow_mut().push(Contact {
+                position: self.world(&place).to_array(),
+                velocity: vector(p.velocity).to_array(),
+                normal: vector(normal).to_array(),
+            });
+        }
     }
 
     fn sweep_bodies(&self, at: &Place<T>, path: V3<T>, active: bool) -> Hit<T> {

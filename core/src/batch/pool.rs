@@ -7,7 +7,7 @@
 
 use crate::error::InputError;
 use rayon::ThreadPool;
-use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Most threads a batch may ask for.
@@ -104,36 +104,48 @@ impl Crew {
     }
 
     /// Does the work on every piece. Whoever is free takes the next one; the caller works too, from the
-    /// first moment on, while the pool's threads wake up.
+    /// first moment on, while the pool's threads wake up. The caller asks `go_on` after each of his pieces;
+    /// where the answer is no, no more pieces are begun. Returns whether all were.
     pub(super) fn share<P: Send>(
         self,
-        pieces: impl ExactSizeIterator<Item = P> + Send,
+        mut pieces: impl ExactSizeIterator<Item = P> + Send,
         work: impl Fn(P) + Sync,
-    ) {
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> bool {
         let helpers = (self.threads - 1).min(pieces.len().saturating_sub(1));
         let Some(pool) = self.pool.filter(|_| helpers > 0) else {
-            pieces.for_each(work);
-            return;
+            while let Some(piece) = pieces.next() {
+                work(piece);
+                if pieces.len() > 0 && !go_on() {
+                    return false;
+                }
+            }
+            return true;
         };
         let pieces = Mutex::new(pieces);
         let at_work = AtomicUsize::new(0);
-        let toil = || {
-            loop {
-                // The lock is held for the taking only, and nothing panics under it.
-                let piece = pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some(piece) = piece else { return };
-                work(piece);
-            }
-        };
+        // The lock is held for the taking only, and nothing panics under it.
+        let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let stopped = AtomicBool::new(false);
         pool.in_place_scope(|scope| {
             for _ in 0..helpers {
                 scope.spawn(|_| {
                     at_work.fetch_add(1, Ordering::Relaxed);
                     let _done = Done(&at_work);
-                    toil();
+                    while !stopped.load(Ordering::Relaxed)
+                        && let Some(piece) = next()
+                    {
+                        work(piece);
+                    }
                 });
             }
-            toil();
+            while let Some(piece) = next() {
+                work(piece);
+                if !go_on() {
+                    stopped.store(true, Ordering::Relaxed);
+                    break;
+                }
+            }
             // The others are in their last pieces: to sleep and be woken would take longer than they do.
             let mut looks = 0;
             while at_work.load(Ordering::Relaxed) > 0 && looks < LOOKS {
@@ -141,6 +153,7 @@ impl Crew {
                 looks += 1;
             }
         });
+        !stopped.load(Ordering::Relaxed) || next().is_none()
     }
 }
 

@@ -117,9 +117,21 @@ impl<'a, T: Scalar> Stage<'a, T> {
     #[inline(never)]
     pub(super) fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
         let world = self.around(&[], 0);
-        let velocity = push::<S, M, T>(&mut body.player, input, self.rules);
-        go::<S, M, T, _>(&mut body.player, velocity, &world, self.rules);
+        self.move_among::<S, M>(&mut body.player, input, &world);
         self.land(body, &world);
+    }
+
+    /// The move of one player among bodies, wherever it ends. One copy of it serves worlds of one and of
+    /// many, and those who ask for its contacts.
+    #[inline(never)]
+    pub(super) fn move_among<S: Scene, M: Movement>(
+        &self,
+        p: &mut Player<S, T>,
+        input: &Input<T>,
+        world: &Neighbourhood<'_, T>,
+    ) {
+        let velocity = push::<S, M, T>(p, input, self.rules);
+        go::<S, M, T, _>(p, velocity, world, self.rules);
     }
 
     /// A tick of several players in one world. They move one after the other, each past the others as
@@ -135,8 +147,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
         stands.extend(bodies.iter().map(|body| Stand::of(&body.player.place())));
         for me in 0..bodies.len() {
             let world = self.reachable(&bodies[me], stands, me);
-            let velocity = push::<S, M, T>(&mut bodies[me].player, &inputs[me], self.rules);
-            self.advance::<S, M, T, _>(&mut bodies[me].player, velocity, &world);
+            self.move_among::<S, M>(&mut bodies[me].player, &inputs[me], &world);
+            self.wrap(&mut bodies[me].player);
             stands[me] = Stand::of(&bodies[me].player.place());
         }
         #[cfg(feature = "discs")]
@@ -163,7 +175,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
 
     /// The world around one of its players, with all that stands.
     pub(super) fn around<'b>(&'b self, stands: &'b [Stand], me: usize) -> Neighbourhood<'b, T> {
-        Neighbourhood { stage: self, solids: self.solids, stands, me }
+        Neighbourhood { stage: self, solids: self.solids, stands, me, log: None }
     }
 
     /// The same, without solids that neither he nor his projectiles can reach within the tick.
@@ -174,7 +186,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         me: usize,
     ) -> Neighbourhood<'b, T> {
         let solids = if self.near_solids(body) { self.solids } else { None };
-        Neighbourhood { stage: self, solids, stands, me }
+        Neighbourhood { stage: self, solids, stands, me, log: None }
     }
 
     /// View and trigger.
@@ -185,18 +197,6 @@ impl<'a, T: Scalar> Stage<'a, T> {
         if let Some(arms) = body.arms.as_mut() {
             fire(arms, &body.player, input.fire, self.arsenal);
         }
-    }
-
-    /// The move, and the position back in its tile.
-    #[inline(always)]
-    fn advance<S: Scene, M: Movement, R: Real<Scalar = T>, W: Obstacles<R>>(
-        &self,
-        p: &mut Player<S, R>,
-        velocity: V3<R>,
-        world: &W,
-    ) {
-        go::<S, M, R, W>(p, velocity, world, self.rules);
-        self.wrap(p);
     }
 
     /// The position back in its tile.

@@ -105,6 +105,7 @@ impl<R: Real> Tally<R> {
         self.touched = self.touched.or(struck);
         let steep = hit.normal.z.lt(R::lit(armor::JUMPABLE_UP));
         let blocked = step_over(p, world, (at, path), hit, struck, steep);
+        world.note(p, blocked, at.position + path * hit.fraction, hit.normal);
         bounce(p, blocked, hit.normal, Model::Article, rules);
         let upward = blocked.and(R::zero().lt(hit.normal.z));
         self.grip = R::select(upward, hit.normal.z, self.grip);

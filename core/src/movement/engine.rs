@@ -102,6 +102,7 @@ impl Movement for Engine {
                 } else {
                     struck
                 };
+                world.note(p, blocked, p.position, normal);
                 bounce(p, blocked, normal, Model::Engine, rules);
                 let upward = blocked.and(zero.lt(normal.z));
                 grip = R::select(upward, grip + normal.z, grip);

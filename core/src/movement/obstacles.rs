@@ -1,7 +1,8 @@
 //! What stands in a mover's way: the terrain and, in some scenes, bodies (solids, other players).
 
-use crate::player::Place;
+use crate::player::{Place, Player};
 use crate::real::{Real, V3};
+use crate::scene::Scene;
 use crate::terrain::{Hit, Surface};
 
 /// The world as one player's move sees it.
@@ -23,6 +24,11 @@ pub trait Obstacles<R: Real> {
     /// How far a player who met `hit` along `path` must be lifted to go on over the ledge (section
     /// 5.1); 0 where there is no such ledge. `active` are those whose contact was steep enough.
     fn step_up(&self, at: &Place<R>, path: V3<R>, hit: &Hit<R>, active: R::Mask) -> R;
+
+    /// Hears of every contact before it acts: of those in `hit`, at local `point` (m), with a surface of that
+    /// normal. Only who asks for a tick's contacts listens.
+    #[inline(always)]
+    fn note<S: Scene>(&self, _p: &Player<S, R>, _hit: R::Mask, _point: V3<R>, _normal: V3<R>) {}
 
     /// First contact of a player, moved along `path`, with terrain or bodies.
     #[inline(always)]

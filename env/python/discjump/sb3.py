@@ -203,17 +203,29 @@ class SkiVecEnv(VecEnv):
             begun[index] = first
         return step_infos
 
-    def snapshot(self) -> bytes:
-        """Every environment in the middle of its episode, for `restore`; valid for equal options only."""
-        return self._task.snapshot()
+    def snapshot(self, index: int | None = None) -> bytes:
+        """Every environment in the middle of its episode, or the one of that index, for `restore`."""
+        return self._task.snapshot(index)
 
-    def restore(self, snapshot: bytes) -> None:
-        """Put every environment back to where it was at a `snapshot`, of this object or of one like it.
+    def restore(self, snapshot: bytes, index: int | None = None) -> None:
+        """Put every environment back to where it was at a `snapshot`, of this object or of one like it; with
+        an index, one of them to where it, or any other one, was.
 
         Raises:
-            ValueError: the snapshot is damaged or belongs to other options; nothing has changed then.
+            TypeError: `snapshot` is no bytes, `index` no integer.
+            ValueError: the snapshot is damaged or belongs to other options, or there is no such environment;
+                nothing has changed then.
         """
-        self._task.restore(snapshot)
+        self._task.restore(snapshot, index)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes it again; the shared infos are made anew."""
+        return {name: value for name, value in self.__dict__.items() if name != "_quiet"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make it again."""
+        self.__dict__.update(state)
+        self._quiet = SharedInfos([SHARED_INFO] * self.num_envs)
 
     def close(self) -> None:
         """Nothing is held that would need it."""

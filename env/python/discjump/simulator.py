@@ -163,6 +163,23 @@ class Simulator:
             raise TypeError(f"terrain: expected a discjump.Terrain, got {type(terrain).__name__}")
         if physics is not None and not isinstance(physics, Physics):
             raise TypeError(f"physics: expected a discjump.Physics, got {type(physics).__name__}")
+        self._arguments: dict[str, Any] = {
+            "terrain": terrain,
+            "num_players": num_players,
+            "scene": scene,
+            "armor": armor,
+            "energy_pack": energy_pack,
+            "fidelity": fidelity,
+            "physics": physics,
+            "tick_ms": tick_ms,
+            "threads": threads,
+            "seed": seed,
+            "players_per_world": players_per_world,
+            "weapon": weapon,
+            "ammo": ammo,
+            "lanes": lanes,
+            "precision": precision,
+        }
         self.seed = _check.integer("seed", seed, 0, _check.SEEDS - 1)
         self._native = _native.Simulator(
             terrain,
@@ -250,7 +267,10 @@ class Simulator:
         return np.zeros(self.num_players, INPUT)
 
     def step(self, inputs: NDArray[Any], ticks: int = 1) -> None:
-        """Play ticks, with the same inputs in each. Ctrl-C is answered between ticks.
+        """Play ticks, with the same inputs in each.
+
+        Ctrl-C is answered within a tenth of a second: between two ticks, or, where a single tick takes longer
+        than half of that, in the middle of one; then only `restore` leads back.
 
         Args:
             inputs: dtype `INPUT`, shape (num_players,).
@@ -259,6 +279,7 @@ class Simulator:
         Raises:
             TypeError: another dtype.
             ValueError: another shape or a value out of range. Then nothing was changed.
+            RuntimeError: another thread is stepping it, or an earlier step ended half-way.
         """
         whole = _check.integer("ticks", ticks, 0, 2**32 - 1)
         self._native.step(_packed("inputs", inputs, INPUT, self.num_players), whole)
@@ -297,20 +318,58 @@ class Simulator:
         """The projectiles under way, as in `blasts`, with aim (3 x f8) instead of normal."""
         return self._native.projectiles()
 
-    def snapshot(self) -> bytes:
-        """Everything, as bytes that `restore` takes."""
-        return self._native.snapshot()
+    def contacts(self, player: int, keys: NDArray[Any] | np.void) -> NDArray[np.void]:
+        """The contacts that a player would have in the next tick, in their order; nothing changes.
 
-    def restore(self, snapshot: bytes) -> None:
-        """Go back to a snapshot of a simulator with the same arguments.
+        Args:
+            player: whose tick.
+            keys: his input, dtype `INPUT`, shape () or (1,).
+
+        Returns:
+            Structured, shape (n,): position (3 x f8, m, of his feet), velocity (3 x f8, m/s, before the
+            contact acts) and normal (3 x f8, unit) of each. The players before him in his world stand where
+            they stand now.
 
         Raises:
-            TypeError: no bytes.
-            ValueError: a damaged snapshot, or one of another layout. Then nothing was changed.
+            TypeError, ValueError: naming the argument, what was expected and what came.
+
+        >>> import discjump, numpy as np
+        >>> sim = discjump.Simulator(discjump.Terrain.from_heights(np.zeros((3, 3))), threads=1)
+        >>> sim.contacts(0, sim.inputs())["normal"]
+        array([[0., 0., 1.]])
+        """
+        index = _check.integer("player", player, 0, self.num_players - 1)
+        row = np.atleast_1d(np.asarray(keys))
+        return self._native.contacts(index, _packed("keys", row, INPUT, 1))
+
+    def snapshot(self, player: int | None = None) -> bytes:
+        """Everything, or everything of one player, as bytes that `restore` takes."""
+        index = None if player is None else _check.integer("player", player, 0, self.num_players - 1)
+        return self._native.snapshot(index)
+
+    def restore(self, snapshot: bytes, player: int | None = None) -> None:
+        """Go back to a snapshot of a simulator with the same arguments, whatever its threads and lanes.
+
+        With `player` put that one to where he, or any other one, was.
+
+        Raises:
+            TypeError: `snapshot` is no bytes, `player` no integer.
+            ValueError: a damaged snapshot, or one of another layout or count, or no such player. Then nothing
+                was changed.
         """
         if not isinstance(snapshot, bytes):
             raise TypeError(f"snapshot: expected bytes, got {type(snapshot).__name__}")
-        self._native.restore(snapshot)
+        index = None if player is None else _check.integer("player", player, 0, self.num_players - 1)
+        self._native.restore(snapshot, index)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes it again, in this process or another: a copy goes on with the same bits."""
+        return {"arguments": self._arguments, "snapshot": self._native.snapshot()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make it again."""
+        Simulator.__init__(self, **state["arguments"])
+        self._native.restore(state["snapshot"])
 
     def digest(self) -> str:
         """32 hexadecimal digits that name the players' exact bits (XXH3-128)."""

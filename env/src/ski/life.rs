@@ -1,6 +1,6 @@
 //! Which environments may be stepped: what a front end asks before every step.
 
-use discjump_core::batch::Autoreset;
+use discjump_core::batch::{Autoreset, LifeStage};
 use discjump_core::task::Outcome;
 
 /// Bit of [`Life::flags`]: the environment was reset at least once.
@@ -61,10 +61,10 @@ impl Life {
         flags
     }
 
-    /// Goes back to what [`Life::flags`] gave.
-    pub(super) fn restore(&mut self, flags: &[u8]) {
-        self.seeded = flags.iter().map(|flag| flag & SEEDED != 0).collect();
-        self.over = (0..flags.len()).filter(|&env| flags[env] & OVER != 0).collect();
+    /// They are as a snapshot had them.
+    pub(super) fn restore(&mut self, stages: &[LifeStage]) {
+        self.seeded = stages.iter().map(|&stage| stage != LifeStage::Fresh).collect();
+        self.over = (0..stages.len()).filter(|&env| stages[env] == LifeStage::Over).collect();
         self.count();
     }
 

@@ -7,7 +7,8 @@
 //! * `life`: whether a step may be taken
 
 use crate::arrays::{array1, structured};
-use crate::errors::refused;
+use crate::calls::{exclusive, here, shared};
+use crate::errors::{refused, unusable};
 use crate::physics::PhysicsArgument;
 use crate::pools::pool;
 use crate::simulator::state_fields;
@@ -29,6 +30,9 @@ mod step;
 
 use life::Life;
 use step::{FlatStep, Outputs, SingleStep, Step};
+
+/// Name, first number, end, unit and scale of a stretch of an observation.
+type Stretch = (&'static str, usize, usize, &'static str, f64);
 
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
@@ -125,32 +129,32 @@ impl SkiBatch {
 
     /// How many environments.
     #[getter]
-    fn num_envs(&self) -> usize {
-        self.batch.len()
+    fn num_envs(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.batch.len())
     }
 
     /// Players stepped side by side.
     #[getter]
-    fn lanes(&self) -> usize {
-        self.batch.lanes()
+    fn lanes(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.batch.lanes())
     }
 
     /// Whether a reset must come before the next step.
     #[getter]
-    fn halted(&self) -> bool {
-        self.life.halted()
+    fn halted(slf: &Bound<'_, Self>) -> PyResult<bool> {
+        Ok(shared(slf)?.life.halted())
     }
 
     /// Whether some environment was never reset.
     #[getter]
-    fn fresh(&self) -> bool {
-        self.life.fresh()
+    fn fresh(slf: &Bound<'_, Self>) -> PyResult<bool> {
+        Ok(shared(slf)?.life.fresh())
     }
 
     /// Numbers in an observation.
     #[getter]
-    fn observation_size(&self) -> usize {
-        self.batch.observation_size()
+    fn observation_size(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.batch.observation_size())
     }
 
     /// Observations lie within plus and minus this.
@@ -173,146 +177,176 @@ impl SkiBatch {
 
     /// (name, first, end, unit, scale) of every stretch of an observation.
     #[getter]
-    fn layout(&self) -> Vec<(&'static str, usize, usize, &'static str, f64)> {
+    fn layout(slf: &Bound<'_, Self>) -> PyResult<Vec<Stretch>> {
         let mut at = 0;
-        self.batch
-            .layout()
+        let fields = shared(slf)?.batch.layout();
+        let stretches = fields
             .iter()
             .map(|f| {
                 let first = at;
                 at += f.count;
                 (f.name, first, at, f.unit, f.scale)
             })
-            .collect()
+            .collect();
+        Ok(stretches)
     }
 
     /// Bytes that one environment takes in memory, beside its observation row.
     #[getter]
-    fn bytes_per_env(&self) -> usize {
-        self.batch.bytes_per_environment()
+    fn bytes_per_env(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.batch.bytes_per_environment())
     }
 
     /// Begins episodes and returns all observations, float32 (num_envs, observation_size).
     #[pyo3(signature = (seeds=None, mask=None, *, start=None, goal=None, terrain=None))]
     fn reset<'py>(
-        &mut self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         seeds: Option<PyReadonlyArray1<'py, u64>>,
         mask: Option<PyReadonlyArray1<'py, bool>>,
         start: Option<Bound<'py, PyAny>>,
         goal: Option<Bound<'py, PyAny>>,
         terrain: Option<PyReadonlyArray1<'py, i64>>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let courses = request::courses(py, self.batch.len(), self.terrains, start, goal, terrain)?;
-        self.begin(py, seeds, mask, courses)
+        let (py, mut this) = (slf.py(), Self::mine(slf)?);
+        let courses = request::courses(py, this.batch.len(), this.terrains, start, goal, terrain)?;
+        this.begin(py, seeds, mask, courses)
     }
 
     /// One decision of every environment: (observations, rewards, terminated, truncated, info), info in
     /// columns with gymnasium's `_key` masks.
-    fn step<'py>(&mut self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
-        self.step_columns(py, actions)
+    fn step<'py>(slf: &Bound<'py, Self>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
+        Self::mine(slf)?.step_columns(slf.py(), actions)
     }
 
     /// The same as (observations, rewards as float32, dones, whether an episode ended).
-    fn step_dones<'py>(&mut self, py: Python<'py>, actions: &Bound<'py, PyAny>) -> PyResult<FlatStep<'py>> {
-        self.step_flat(py, actions)
+    fn step_dones<'py>(slf: &Bound<'py, Self>, actions: &Bound<'py, PyAny>) -> PyResult<FlatStep<'py>> {
+        Self::mine(slf)?.step_flat(slf.py(), actions)
     }
 
     /// One decision of a batch of one: (observation, reward, terminated, truncated, info) without the
     /// dimension of the batch.
-    fn step_one<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<SingleStep<'py>> {
-        self.step_single(py, action)
+    fn step_one<'py>(slf: &Bound<'py, Self>, action: &Bound<'py, PyAny>) -> PyResult<SingleStep<'py>> {
+        Self::mine(slf)?.step_single(slf.py(), action)
     }
 
     /// Columns of info, with masks, of the environments in a mask as they are now; of all where None.
     #[pyo3(signature = (mask=None))]
     fn info<'py>(
-        &mut self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         mask: Option<PyReadonlyArray1<'py, bool>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let mask = mask.as_ref().map(|mask| request::entries("mask", mask, self.batch.len())).transpose()?;
-        self.outputs.infos.columns(py, self.batch.as_ref(), mask.as_deref())
+        let mut this = Self::mine(slf)?;
+        let this = &mut *this;
+        let mask = mask.as_ref().map(|mask| request::entries("mask", mask, this.batch.len())).transpose()?;
+        this.outputs.infos.columns(slf.py(), this.batch.as_ref(), mask.as_deref())
     }
 
     /// The info of every environment as it is now.
-    fn infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        self.batch.status().iter().map(|status| self.outputs.infos.row(py, status)).collect()
+    fn infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let this = Self::whole(slf)?;
+        this.batch.status().iter().map(|status| this.outputs.infos.row(slf.py(), status)).collect()
     }
 
     /// Indices of the environments whose episode ended in the last step, ascending, int64.
-    fn finished<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        array1(py, self.batch.finished().iter().map(|&(i, _)| i as i64).collect())
+    fn finished<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let finished = Self::whole(slf)?.batch.finished().iter().map(|&(i, _)| i as i64).collect();
+        Ok(array1(slf.py(), finished))
     }
 
     /// Their last observations, float32 (len(finished), observation_size).
-    fn final_observations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        self.final_rows(py)
+    fn final_observations<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        Self::whole(slf)?.final_rows(slf.py())
     }
 
     /// Their last infos.
-    fn final_infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        self.batch.finished().iter().map(|(_, outcome)| self.outputs.infos.last_row(py, outcome)).collect()
+    fn final_infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let this = Self::whole(slf)?;
+        let ends = this.batch.finished().iter();
+        ends.map(|(_, outcome)| this.outputs.infos.last_row(slf.py(), outcome)).collect()
     }
 
     /// The infos of their next episodes' beginnings, where those began in the same step.
-    fn begun_infos<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let envs = self.batch.finished().iter().map(|&(env, _)| env);
-        envs.map(|env| self.outputs.infos.row(py, &self.batch.status_of(env))).collect()
+    fn begun_infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let this = Self::whole(slf)?;
+        let envs = this.batch.finished().iter().map(|&(env, _)| env);
+        envs.map(|env| this.outputs.infos.row(slf.py(), &this.batch.status_of(env))).collect()
     }
 
     /// A byte per environment: 1 where it was reset once, and 2 where its episode is over.
-    fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        array1(py, self.life.flags())
+    fn flags<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        Ok(array1(slf.py(), shared(slf)?.life.flags()))
     }
 
     /// Which terrain each episode runs on, int64 (num_envs,).
-    fn terrain_index<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        array1(py, self.batch.status().iter().map(|status| status.terrain as i64).collect())
+    fn terrain_index<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let indices = Self::whole(slf)?.batch.status().iter().map(|status| status.terrain as i64).collect();
+        Ok(array1(slf.py(), indices))
     }
 
     /// All players' states, as `Simulator.state()`.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        structured(py, &state_fields(&self.batch.state_fields()), &self.batch.state())
+    fn state<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let this = Self::whole(slf)?;
+        structured(slf.py(), &state_fields(&this.batch.state_fields()), &this.batch.state())
     }
 
     /// World positions of the beacons, float64 (num_envs, 3), m; z is the ground's height.
-    fn goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let goals = self.batch.goals();
-        array1(py, goals.concat()).reshape([goals.len(), 3])
+    fn goals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let goals = Self::whole(slf)?.batch.goals();
+        array1(slf.py(), goals.concat()).reshape([goals.len(), 3])
     }
 
-    /// Everything, as bytes that `restore` takes.
-    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.batch.snapshot())
+    /// Everything, or everything of one environment, as bytes that `restore` takes.
+    #[pyo3(signature = (index=None))]
+    fn snapshot<'py>(slf: &Bound<'py, Self>, index: Option<usize>) -> PyResult<Bound<'py, PyBytes>> {
+        let this = Self::whole(slf)?;
+        let bytes = match index {
+            Some(index) => this.batch.snapshot_one(index).map_err(refused)?,
+            None => this.batch.snapshot(),
+        };
+        Ok(PyBytes::new(slf.py(), &bytes))
     }
 
-    /// Goes back to a snapshot of a batch with the same arguments; `set_flags` goes back to its flags.
-    fn restore(&mut self, snapshot: &[u8]) -> PyResult<()> {
-        self.batch.restore(snapshot).map_err(refused)?;
-        self.kept.clear();
-        Ok(())
-    }
-
-    /// Overwrites what `flags` gives, as bytes.
-    fn set_flags(&mut self, flags: &[u8]) -> PyResult<()> {
-        let (n, got) = (self.batch.len(), flags.len());
-        if got != n {
-            return Err(PyValueError::new_err(format!(
-                "flags: expected {n}, one per environment, got {got}"
-            )));
-        }
-        self.life.restore(flags);
+    /// Goes back to a snapshot of a batch with the same arguments, or puts one environment there.
+    #[pyo3(signature = (snapshot, index=None))]
+    fn restore(slf: &Bound<'_, Self>, snapshot: &[u8], index: Option<usize>) -> PyResult<()> {
+        let mut this = exclusive(slf)?;
+        let this = &mut *this;
+        here(|| match index {
+            Some(index) => this.batch.restore_one(index, snapshot),
+            None => this.batch.restore(snapshot),
+        })?;
+        this.kept.clear();
+        this.life.restore(&this.batch.stages());
         Ok(())
     }
 
     /// 32 hexadecimal digits that name the environments' exact bits.
-    fn digest(&self) -> String {
-        self.batch.digest()
+    fn digest(slf: &Bound<'_, Self>) -> PyResult<String> {
+        Ok(Self::whole(slf)?.batch.digest())
+    }
+
+    /// Makes the next step fail half-way, as a defect would: for tests of what comes after.
+    fn fail_next_step(slf: &Bound<'_, Self>) -> PyResult<()> {
+        exclusive(slf)?.batch.fail_next_step();
+        Ok(())
     }
 }
 
 impl SkiBatch {
+    /// The batch, for reading, unless a step ended half-way.
+    fn whole<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRef<'py, Self>> {
+        let this = shared(slf)?;
+        this.batch.whole().map_err(unusable)?;
+        Ok(this)
+    }
+
+    /// The batch, for changing, unless a step ended half-way.
+    fn mine<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRefMut<'py, Self>> {
+        let this = exclusive(slf)?;
+        this.batch.whole().map_err(unusable)?;
+        Ok(this)
+    }
+
     fn final_rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let rows = self.batch.finished().len();
         array1(py, self.batch.final_observations().to_vec()).reshape([rows, self.batch.observation_size()])

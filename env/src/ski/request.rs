@@ -2,6 +2,7 @@
 
 use super::SkiBatch;
 use crate::arrays::rows;
+use crate::calls::away;
 use crate::errors::refused;
 use discjump_core::batch::ResetRequest;
 use discjump_core::error::InputError;
@@ -37,7 +38,7 @@ impl SkiBatch {
             observations.copy_from_slice(&self.kept);
         }
         let batch = &mut self.batch;
-        py.detach(|| batch.reset(&request, observations)).map_err(refused)?;
+        away(py, |go_on| batch.reset_while(&request, observations, go_on))?;
         self.life.reset(mask);
         if request.others_observed {
             let row = self.batch.observation_size();

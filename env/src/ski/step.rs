@@ -4,7 +4,7 @@ use super::SkiBatch;
 use super::actions::{of_batch, of_one, readable};
 use super::info::Infos;
 use crate::arrays::{Buffers, Column};
-use crate::errors::refused;
+use crate::calls::{away, here};
 use discjump_core::batch::{Autoreset, Rewards, Status, StatusOutput, StepOutput};
 use discjump_core::task::{ActionKind, Actions};
 use numpy::ndarray::{Ix1, Ix2};
@@ -166,12 +166,11 @@ impl SkiBatch {
 
     fn play(&mut self, py: Python<'_>, actions: Actions<'_>, output: StepOutput<'_>) -> PyResult<()> {
         let batch = &mut self.batch;
-        let played = if batch.len() * self.frame_skip <= KEEPS_LOCK {
-            batch.step(actions, output)
+        if batch.len() * self.frame_skip <= KEEPS_LOCK {
+            here(|| batch.step(actions, output))?;
         } else {
-            py.detach(|| batch.step(actions, output))
-        };
-        played.map_err(refused)?;
+            away(py, |go_on| batch.step_while(actions, output, go_on))?;
+        }
         self.life.stepped(batch.finished());
         Ok(())
     }

@@ -16,6 +16,17 @@ pub enum Autoreset {
     Disabled,
 }
 
+/// Where an environment is in its life.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LifeStage {
+    /// It was never reset.
+    Fresh,
+    /// An episode is under way.
+    Running,
+    /// Its episode is over, and the next one has not begun.
+    Over,
+}
+
 /// What a reset asks for. Every list is empty (nothing asked) or has one entry per environment.
 #[derive(Clone, Debug, Default)]
 pub struct ResetRequest {
@@ -111,12 +122,43 @@ pub trait Environments: Send + Sync {
     ///
     /// # Errors
     /// If the request is malformed; then nothing was changed.
-    fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError>;
+    fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError> {
+        self.reset_while(request, observations, &mut || true)
+    }
+    /// The same, as long as `go_on`, asked on the caller's thread every few hundred environments, says so.
+    ///
+    /// # Errors
+    /// As [`Environments::reset`]; and if it was stopped: episodes have begun then, or not.
+    fn reset_while(
+        &mut self,
+        request: &ResetRequest,
+        observations: &mut [f32],
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError>;
     /// One decision of every environment.
     ///
     /// # Errors
     /// If actions or outputs are malformed, or an environment was never reset; then nothing was changed.
-    fn step(&mut self, actions: Actions<'_>, output: StepOutput<'_>) -> Result<(), InputError>;
+    fn step(&mut self, actions: Actions<'_>, output: StepOutput<'_>) -> Result<(), InputError> {
+        self.step_while(actions, output, &mut || true)
+    }
+    /// The same, as long as `go_on`, asked on the caller's thread every few hundred environments, says so.
+    ///
+    /// # Errors
+    /// As [`Environments::step`]; and if it was stopped half-way: then only a snapshot leads back.
+    fn step_while(
+        &mut self,
+        actions: Actions<'_>,
+        output: StepOutput<'_>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError>;
+    /// Whether no step ended half-way, so that there is something to read.
+    ///
+    /// # Errors
+    /// If one did.
+    fn whole(&self) -> Result<(), InputError>;
+    /// Makes the next step panic half-way, as a defect would: for tests of what comes after.
+    fn fail_next_step(&mut self);
     /// Which environments' episodes ended in the last step, and how, in ascending order.
     fn finished(&self) -> &[(usize, Outcome)];
     /// Their last observations, row by row.
@@ -136,13 +178,25 @@ pub trait Environments: Send + Sync {
     fn state(&self) -> Vec<u8>;
     /// Bytes that one environment takes in memory, beside its observation row.
     fn bytes_per_environment(&self) -> usize;
+    /// Where each environment is in its life.
+    fn stages(&self) -> Vec<LifeStage>;
     /// Everything, as bytes that [`Environments::restore`] takes.
     fn snapshot(&self) -> Vec<u8>;
-    /// Goes back to a snapshot.
+    /// Goes back to a snapshot of this batch or of another one of the same arguments. Autoreset modes may differ.
     ///
     /// # Errors
     /// If it is damaged, or of another layout or count; then nothing was changed.
     fn restore(&mut self, snapshot: &[u8]) -> Result<(), InputError>;
+    /// Everything of one environment, as bytes that [`Environments::restore_one`] takes.
+    ///
+    /// # Errors
+    /// If there is no such environment.
+    fn snapshot_one(&self, env: usize) -> Result<Vec<u8>, InputError>;
+    /// Puts one environment to where it, or another one of a batch of the same arguments, was.
+    ///
+    /// # Errors
+    /// As [`Environments::restore`], and if there is no such environment; then nothing was changed.
+    fn restore_one(&mut self, env: usize, snapshot: &[u8]) -> Result<(), InputError>;
     /// XXH3-128 of all environments, as 32 hexadecimal digits.
     fn digest(&self) -> String;
 }

@@ -15,6 +15,7 @@ use crate::real::{Int, Mask, Real, Scalar, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
 use crate::task::{ActionKind, Actions, CourseRequest, Outcome, Run, draw_course};
+use core::ops::Range;
 use glam::{DVec3, IVec2};
 
 mod api;
@@ -26,7 +27,7 @@ mod parts;
 mod setup;
 mod step;
 
-pub use api::{Autoreset, Environments, ResetRequest, Rewards, Status, StatusOutput, StepOutput};
+pub use api::{Autoreset, Environments, LifeStage, ResetRequest, Rewards, Status, StatusOutput, StepOutput};
 use block::Block;
 use episode::{Begun, Episode, Phase};
 use parts::{PARTS, Watch};
@@ -45,8 +46,9 @@ struct Batch<S: Scene, M: Movement, R: Real> {
     ready: bool,
     row: usize,
     threads: usize,
-    /// Whether a step panicked half-way: better no bits than wrong ones.
+    /// Whether a step panicked or was stopped half-way: better no bits than wrong ones.
     broken: bool,
+    fail: bool,
     layout: String,
     movement: core::marker::PhantomData<M>,
 }
@@ -60,7 +62,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let corners: Vec<u8> =
             setup.areas.iter().flat_map(|a| [a.min, a.max].concat()).flat_map(f64::to_le_bytes).collect();
         let layout = format!(
-            "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, {:?}, {:?}, {:?}, {} terrains: {:032x}, \
+            "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, {:?}, {:?}, {} terrains: {:032x}, \
              their areas: {:016x}",
             S::NAME,
             setup.fidelity,
@@ -70,7 +72,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             setup.tick_ms,
             setup.task,
             setup.actions,
-            setup.autoreset,
             setup.maps.count(),
             setup.maps.digest(),
             xxhash_rust::xxh3::xxh3_64(&corners),
@@ -86,6 +87,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             row,
             threads,
             broken: false,
+            fail: false,
             layout,
             setup,
             movement: core::marker::PhantomData,
@@ -100,9 +102,41 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     fn each(&self) -> impl Iterator<Item = (Player<S, R::Scalar>, Run<R::Scalar>, Episode)> {
-        let each = |b: &Block<S, R>, lane| (b.player.lane(lane), b.run.lane(lane), b.episodes.lane(lane));
-        let lanes = self.blocks.iter().flat_map(move |b| (0..R::LANES).map(move |lane| each(b, lane)));
-        lanes.take(self.setup.count)
+        (0..self.setup.count).map(|env| self.one(env))
+    }
+
+    fn one(&self, env: usize) -> (Player<S, R::Scalar>, Run<R::Scalar>, Episode) {
+        let (block, lane) = (&self.blocks[env / R::LANES], env % R::LANES);
+        (block.player.lane(lane), block.run.lane(lane), block.episodes.lane(lane))
+    }
+
+    fn one_of(&self, env: usize) -> Result<Range<usize>, InputError> {
+        if env >= self.setup.count {
+            refuse!("index: expected 0 to {}, got {env}", self.setup.count - 1);
+        }
+        Ok(env..env + 1)
+    }
+
+    fn sealed(&self, envs: Range<usize>) -> Vec<u8> {
+        snapshot::seal(&self.layout, envs.len(), &self.bytes(envs))
+    }
+
+    fn open(&mut self, envs: Range<usize>, bytes: &[u8]) -> Result<(), InputError> {
+        let body = snapshot::open(&self.layout, envs.len(), bytes)?;
+        let stride = self.body_stride();
+        if body.len() != stride * envs.len() {
+            refuse!("snapshot: expected {} bytes, got {}", stride * envs.len(), body.len());
+        }
+        for (i, bytes) in envs.zip(body.chunks_exact(stride)) {
+            let mut player = self.blocks[i / R::LANES].player.lane(i % R::LANES);
+            let (head, tail) = bytes.split_at(stride - episode::BYTES);
+            read_player(&mut player, true, head);
+            let (run, episode) = episode::read(tail);
+            self.put(i, &Begun { player, run, episode });
+        }
+        self.ready = false;
+        self.note_phases();
+        Ok(())
     }
 
     fn episode(&self, index: usize) -> Episode {
@@ -113,9 +147,9 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.blocks[index / R::LANES].put(index % R::LANES, begun, &self.setup.maps);
     }
 
-    fn bytes(&self) -> Vec<u8> {
+    fn bytes(&self, envs: Range<usize>) -> Vec<u8> {
         let mut out = Vec::new();
-        for (player, run, episode) in self.each() {
+        for (player, run, episode) in envs.map(|env| self.one(env)) {
             write_player(&player, true, &mut out);
             episode::write(&run, &episode, &mut out);
         }
@@ -177,7 +211,12 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         self.setup.actions
     }
 
-    fn reset(&mut self, request: &ResetRequest, observations: &mut [f32]) -> Result<(), InputError> {
+    fn reset_while(
+        &mut self,
+        request: &ResetRequest,
+        observations: &mut [f32],
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError> {
         self.check_reset(request, observations.len())?;
         let crew = self.crew()?;
         let _floats = DefaultFloats::enter();
@@ -197,6 +236,9 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
             let next = episode::begin(&self.setup, &self.rules, seed, number, &course)
                 .map_err(|e| InputError(format!("environment {i}: {e}")))?;
             begun.push((i, next));
+            if begun.len().is_multiple_of(PLAYERS) && !go_on() {
+                refuse!("the reset was stopped before anything changed");
+            }
         }
         let chosen: Vec<usize> = begun.iter().map(|&(i, _)| i).collect();
         for (i, next) in begun {
@@ -209,14 +251,30 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
                 self.observe_lane(&self.blocks[i / R::LANES], i % R::LANES, row);
             }
         } else {
-            self.observe_all(crew, observations);
+            let seen = self.observe_all(crew, observations, go_on);
+            if !seen {
+                refuse!("the reset was stopped: its episodes have begun, and were not observed");
+            }
         }
         Ok(())
     }
 
-    fn step(&mut self, actions: Actions<'_>, output: StepOutput<'_>) -> Result<(), InputError> {
+    fn step_while(
+        &mut self,
+        actions: Actions<'_>,
+        output: StepOutput<'_>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError> {
         self.check_step(&actions, &output)?;
-        self.step_all(actions, output)
+        self.step_all(actions, output, go_on)
+    }
+
+    fn whole(&self) -> Result<(), InputError> {
+        self.check_whole()
+    }
+
+    fn fail_next_step(&mut self) {
+        self.fail = true;
     }
 
     fn finished(&self) -> &[(usize, Outcome)] {
@@ -261,31 +319,36 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         size_of::<Block<S, R>>() / R::LANES
     }
 
+    fn stages(&self) -> Vec<LifeStage> {
+        let stage = |env| match self.episode(env).phase {
+            Phase::Unseeded => LifeStage::Fresh,
+            Phase::Running => LifeStage::Running,
+            Phase::Terminated | Phase::Truncated => LifeStage::Over,
+        };
+        (0..self.setup.count).map(stage).collect()
+    }
+
     fn snapshot(&self) -> Vec<u8> {
-        snapshot::seal(&self.layout, self.setup.count, &self.bytes())
+        self.sealed(0..self.setup.count)
     }
 
     fn restore(&mut self, bytes: &[u8]) -> Result<(), InputError> {
-        let body = snapshot::open(&self.layout, self.setup.count, bytes)?;
-        let stride = self.body_stride();
-        if body.len() != stride * self.setup.count {
-            refuse!("snapshot: expected {} bytes, got {}", stride * self.setup.count, body.len());
-        }
-        for (i, bytes) in body.chunks_exact(stride).enumerate() {
-            let mut player = self.blocks[i / R::LANES].player.lane(i % R::LANES);
-            let (head, tail) = bytes.split_at(stride - episode::BYTES);
-            read_player(&mut player, true, head);
-            let (run, episode) = episode::read(tail);
-            self.put(i, &Begun { player, run, episode });
-        }
-        self.ready = false;
-        self.note_phases();
+        self.open(0..self.setup.count, bytes)?;
         self.broken = false;
         Ok(())
     }
 
+    fn snapshot_one(&self, env: usize) -> Result<Vec<u8>, InputError> {
+        Ok(self.sealed(self.one_of(env)?))
+    }
+
+    fn restore_one(&mut self, env: usize, bytes: &[u8]) -> Result<(), InputError> {
+        self.check_whole()?;
+        self.open(self.one_of(env)?, bytes)
+    }
+
     fn digest(&self) -> String {
-        format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes()))
+        format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes(0..self.setup.count)))
     }
 }
 

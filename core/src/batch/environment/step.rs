@@ -125,9 +125,9 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         Ok(())
     }
 
-    fn check_whole(&self) -> Result<(), InputError> {
+    pub(super) fn check_whole(&self) -> Result<(), InputError> {
         if self.broken {
-            refuse!("an earlier step of this batch failed: restore a snapshot, or make a new batch");
+            refuse!("an earlier step of this batch ended half-way: restore a snapshot, or make a new batch");
         }
         Ok(())
     }
@@ -171,21 +171,30 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.setup.observation.write(&player, &run, &surface, &self.rules, lowest, row, 1, columns);
     }
 
-    pub(super) fn observe_all(&self, crew: Crew, observations: &mut [f32]) {
+    /// Returns whether it came to the end; see [`Crew::share`].
+    pub(super) fn observe_all(
+        &self,
+        crew: Crew,
+        observations: &mut [f32],
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> bool {
         let (blocks, rows) = (Self::PIECE / R::LANES, Self::PIECE * self.row);
         let surface = self.setup.maps.surface();
         let pieces = self.blocks.chunks(blocks).zip(observations.chunks_mut(rows));
-        crew.share(pieces, |(blocks, rows)| {
+        let work = |(blocks, rows)| {
             let _floats = DefaultFloats::enter();
             R::enter(Observe { batch: self, surface, blocks, rows });
-        });
+        };
+        crew.share(pieces, work, go_on)
     }
 
     pub(super) fn step_all(
         &mut self,
         actions: Actions<'_>,
         mut output: StepOutput<'_>,
+        go_on: &mut dyn FnMut() -> bool,
     ) -> Result<(), InputError> {
+        let fail = core::mem::take(&mut self.fail);
         let crew = self.crew()?;
         let (count, row) = (self.setup.count, self.row);
         // They leave the batch for the step, so that the rest of it can be read from every thread.
@@ -201,11 +210,13 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             Piece { blocks, output, report, first }
         });
         let stepped = catch_unwind(AssertUnwindSafe(|| {
-            crew.share(pieces, |piece| {
+            let work = |piece: Piece<'_, S, R>| {
                 let _floats = DefaultFloats::enter();
                 piece.report.restart();
                 R::enter(Step { batch: this, surface, piece, actions });
-            });
+                assert!(!fail, "this step was made to fail");
+            };
+            crew.share(pieces, work, go_on)
         }));
         self.blocks = blocks;
         self.finished.clear();
@@ -215,10 +226,10 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             self.final_observations.append(&mut report.observations);
         }
         self.reports = reports;
+        self.broken = !matches!(stepped, Ok(true));
         if let Err(panic) = stepped {
-            self.broken = true;
             resume_unwind(panic);
         }
-        Ok(())
+        self.check_whole()
     }
 }

@@ -12,7 +12,7 @@ pub use state::MAX_SPEED;
 
 use super::alone::{MOST_BLOCKS, PLAYERS, together};
 use super::codec::{body_fields, read_body, write_body};
-use super::neighbourhood::Stand;
+use super::neighbourhood::{Contact, Neighbourhood, Stand};
 use super::pool::Crew;
 use super::raw_input::RawInput;
 use super::snapshot;
@@ -29,6 +29,8 @@ use crate::scene::Scene;
 use crate::solids::Solids;
 use crate::terrain::Maps;
 use core::marker::PhantomData;
+use core::ops::Range;
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// What every batch of bodies can do, whatever its scene and tier.
@@ -64,7 +66,32 @@ pub trait Bodies: Send + Sync {
     ///
     /// # Errors
     /// If there is not one input per player, or one is out of range; then nothing was changed.
-    fn step(&mut self, inputs: &[RawInput], ticks: u32) -> Result<(), InputError>;
+    fn step(&mut self, inputs: &[RawInput], ticks: u32) -> Result<(), InputError> {
+        self.step_while(inputs, ticks, &mut || true)
+    }
+    /// The same, as long as `go_on`, asked on the caller's thread every few hundred players, says so.
+    ///
+    /// # Errors
+    /// As [`Bodies::step`]; and if it was stopped half-way: then only a snapshot leads back.
+    fn step_while(
+        &mut self,
+        inputs: &[RawInput],
+        ticks: u32,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError>;
+    /// The contacts that a player would have in the next tick with these keys, in their order, the other
+    /// players standing where they stand now.
+    ///
+    /// # Errors
+    /// If there is no such player, or a key is out of range.
+    fn contacts(&self, player: usize, input: &RawInput) -> Result<Vec<Contact>, InputError>;
+    /// Whether no step ended half-way, so that there is something to read.
+    ///
+    /// # Errors
+    /// If one did.
+    fn whole(&self) -> Result<(), InputError>;
+    /// Makes the next step panic half-way, as a defect would: for tests of what comes after.
+    fn fail_next_step(&mut self);
     /// One explosion of a weapon ("disc", "grenade", "mortar") per player, at world points, m; a point
     /// with a NaN is none. It acts on all players of the player's world at once, in the players' order,
     /// and nothing stays pending.
@@ -79,11 +106,21 @@ pub trait Bodies: Send + Sync {
     fn projectiles(&self) -> Vec<Shot>;
     /// Everything, as bytes that [`Bodies::restore`] takes.
     fn snapshot(&self) -> Vec<u8>;
-    /// Goes back to a snapshot.
+    /// Goes back to a snapshot of this batch or of another one of the same arguments.
     ///
     /// # Errors
     /// If it is damaged, or of another layout or count; then nothing was changed.
     fn restore(&mut self, snapshot: &[u8]) -> Result<(), InputError>;
+    /// Everything of one player, as bytes that [`Bodies::restore_one`] takes.
+    ///
+    /// # Errors
+    /// If there is no such player.
+    fn snapshot_one(&self, player: usize) -> Result<Vec<u8>, InputError>;
+    /// Puts one player to where it, or another one of a batch of the same arguments, was.
+    ///
+    /// # Errors
+    /// As [`Bodies::restore`], and if there is no such player; then nothing was changed.
+    fn restore_one(&mut self, player: usize, snapshot: &[u8]) -> Result<(), InputError>;
     /// XXH3-128 of all players, as 32 hexadecimal digits.
     fn digest(&self) -> String;
 }
@@ -99,8 +136,9 @@ pub struct Simulator<S: Scene, M: Movement, R: Real> {
     count: usize,
     per_world: usize,
     threads: usize,
-    /// Whether a step panicked half-way: better no bits than wrong ones.
+    /// Whether a step panicked or was stopped half-way: better no bits than wrong ones.
     broken: bool,
+    fail: bool,
     layout: String,
     movement: PhantomData<M>,
 }
@@ -110,9 +148,9 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         self.blocks[index / R::LANES].lane(index % R::LANES)
     }
 
-    fn bytes(&self) -> Vec<u8> {
+    fn bytes(&self, players: Range<usize>) -> Vec<u8> {
         let mut out = Vec::new();
-        (0..self.count).for_each(|i| write_body(&self.body(i), true, &mut out));
+        players.for_each(|i| write_body(&self.body(i), true, &mut out));
         out
     }
 
@@ -122,7 +160,39 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
 
     fn refuse_broken(&self) -> Result<(), InputError> {
         if self.broken {
-            refuse!("an earlier step of this simulator failed: restore a snapshot, or make a new one");
+            refuse!(
+                "an earlier step of this simulator ended half-way: restore a snapshot, or make a new one"
+            );
+        }
+        Ok(())
+    }
+
+    fn check_index(&self, player: usize) -> Result<(), InputError> {
+        if player >= self.count {
+            refuse!("player: expected 0 to {}, got {player}", self.count - 1);
+        }
+        Ok(())
+    }
+
+    fn one_of(&self, player: usize) -> Result<Range<usize>, InputError> {
+        self.check_index(player)?;
+        Ok(player..player + 1)
+    }
+
+    fn sealed(&self, players: Range<usize>) -> Vec<u8> {
+        snapshot::seal(&self.layout, players.len(), &self.bytes(players))
+    }
+
+    fn open(&mut self, players: Range<usize>, bytes: &[u8]) -> Result<(), InputError> {
+        let body = snapshot::open(&self.layout, players.len(), bytes)?;
+        let stride = packed_bytes(&body_fields::<S, R::Scalar>(true));
+        if body.len() != stride * players.len() {
+            refuse!("snapshot: expected {} bytes of players, got {}", stride * players.len(), body.len());
+        }
+        for (i, bytes) in players.zip(body.chunks_exact(stride)) {
+            let mut body = self.body(i);
+            read_body(&mut body, true, bytes);
+            self.blocks[i / R::LANES].set_lane(i % R::LANES, &body);
         }
         Ok(())
     }
@@ -229,7 +299,12 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         self.shots(crate::arms::FLYING)
     }
 
-    fn step(&mut self, inputs: &[RawInput], ticks: u32) -> Result<(), InputError> {
+    fn step_while(
+        &mut self,
+        inputs: &[RawInput],
+        ticks: u32,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<(), InputError> {
         self.refuse_broken()?;
         if inputs.len() != self.count {
             refuse!("inputs: expected {} rows, got {}", self.count, inputs.len());
@@ -239,37 +314,63 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         let (per_world, piece) = (self.per_world, self.piece());
         let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
         self.broken = true;
+        let fail = core::mem::take(&mut self.fail);
         let pieces = self.blocks.chunks_mut(piece / R::LANES).zip(inputs.chunks(piece));
-        crew.share(pieces, |(blocks, raw)| {
+        let work = |(blocks, raw): (&mut [Body<S, R>], &[RawInput])| {
             // A copy on each thread's own stack: the caller writes beside his all the time, and whoever
             // reads a line that another writes waits for it.
             let own = stage;
             play::<S, M, R>(&own, per_world, blocks, raw, ticks);
-        });
-        self.broken = false;
-        Ok(())
+            assert!(!fail, "this step was made to fail");
+        };
+        self.broken = !crew.share(pieces, work, go_on);
+        self.refuse_broken()
+    }
+
+    fn contacts(&self, player: usize, input: &RawInput) -> Result<Vec<Contact>, InputError> {
+        self.refuse_broken()?;
+        self.check_index(player)?;
+        input.check(player)?;
+        let _floats = DefaultFloats::enter();
+        let (stage, log) = (self.stage(), RefCell::default());
+        let (input, me) = (input.to_input(), player % self.per_world);
+        let world = player - me..player - me + self.per_world;
+        let stands: Vec<Stand> = world.map(|k| Stand::of(&self.body(k).player.place())).collect();
+        let mut body = self.body(player);
+        stage.aim(&mut body, &input);
+        let world = Neighbourhood { log: Some(&log), ..stage.around(&stands, me) };
+        stage.move_among::<S, M>(&mut body.player, &input, &world);
+        Ok(log.into_inner())
+    }
+
+    fn whole(&self) -> Result<(), InputError> {
+        self.refuse_broken()
+    }
+
+    fn fail_next_step(&mut self) {
+        self.fail = true;
     }
 
     fn snapshot(&self) -> Vec<u8> {
-        snapshot::seal(&self.layout, self.count, &self.bytes())
+        self.sealed(0..self.count)
     }
 
     fn restore(&mut self, bytes: &[u8]) -> Result<(), InputError> {
-        let body = snapshot::open(&self.layout, self.count, bytes)?;
-        let stride = packed_bytes(&body_fields::<S, R::Scalar>(true));
-        if body.len() != stride * self.count {
-            refuse!("snapshot: expected {} bytes of players, got {}", stride * self.count, body.len());
-        }
-        for (i, bytes) in body.chunks_exact(stride).enumerate() {
-            let mut body = self.body(i);
-            read_body(&mut body, true, bytes);
-            self.blocks[i / R::LANES].set_lane(i % R::LANES, &body);
-        }
+        self.open(0..self.count, bytes)?;
         self.broken = false;
         Ok(())
     }
 
+    fn snapshot_one(&self, player: usize) -> Result<Vec<u8>, InputError> {
+        Ok(self.sealed(self.one_of(player)?))
+    }
+
+    fn restore_one(&mut self, player: usize, bytes: &[u8]) -> Result<(), InputError> {
+        self.refuse_broken()?;
+        self.open(self.one_of(player)?, bytes)
+    }
+
     fn digest(&self) -> String {
-        format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes()))
+        format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&self.bytes(0..self.count)))
     }
 }

@@ -180,6 +180,7 @@ impl SimulatorSetup<'_> {
             per_world: self.players_per_world,
             threads,
             broken: false,
+            fail: false,
             layout,
             movement: core::marker::PhantomData,
         }))

@@ -32,6 +32,17 @@ class Camera:
         self._points = np.zeros(batch.num_envs, np.int64)
         self._maps: OrderedDict[int, CommandMap] = OrderedDict()
 
+    @property
+    def paths(self) -> tuple[list[NDArray[np.float64]], NDArray[np.int64]]:
+        """What it remembers of all episodes, for a copy of it."""
+        return list(self._track), self._points.copy()
+
+    @paths.setter
+    def paths(self, paths: tuple[list[NDArray[np.float64]], NDArray[np.int64]]) -> None:
+        self._track.clear()
+        self._track.extend(paths[0])
+        self._points = paths[1].copy()
+
     def restart(self, rows: NDArray[np.bool_]) -> None:
         """New episodes began in `rows` by a reset; the others did not move."""
         self._points[rows] = 0

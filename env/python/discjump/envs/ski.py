@@ -140,6 +140,30 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
             return given.astype(np.float32)
         return given
 
+    def snapshot(self) -> bytes:
+        """The environment in the middle of its episode, as bytes that `restore` takes; also that of one
+        environment among many (`index=`) with the same options.
+        """
+        return self._task.snapshot()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Go back to a snapshot: the episode goes on from there with the same bits.
+
+        Raises:
+            TypeError: no bytes.
+            ValueError: it is damaged or belongs to other options; nothing has changed then.
+
+        >>> import gymnasium, discjump
+        >>> env = gymnasium.make("discjump/Ski-v0", terrain_seeds=[0]).unwrapped
+        >>> observation, info = env.reset(seed=1)
+        >>> before, action = env.snapshot(), np.array([2, 1, 1, 1, 3])
+        >>> once = env.step(action)[1]
+        >>> env.restore(before)
+        >>> once == env.step(action)[1]
+        True
+        """
+        self._task.restore(snapshot)
+
     def render(self) -> NDArray[np.uint8] | None:
         """The command map, (height, width, 3) uint8, north up; None without `render_mode`."""
         return None if self.render_mode is None else self._task.render()

@@ -1,6 +1,5 @@
 """What the three front ends (single, vector, stable-baselines3) share: the batch, its spaces, its seeds."""
 
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
@@ -53,6 +52,14 @@ class SkiTask:
         lanes: int | None = None,
         render: bool = False,
     ) -> None:
+        self._arguments: dict[str, Any] = {
+            "options": options,
+            "num_envs": num_envs,
+            "autoreset": autoreset,
+            "threads": threads,
+            "lanes": lanes,
+            "render": render,
+        }
         self.options = options
         self.terrains: list[Terrain] = options.pool()
         self.terrain_seeds = [terrain.seed for terrain in self.terrains]
@@ -127,13 +134,12 @@ class SkiTask:
         if not seeded.any():
             return self.batch.reset(None, following, **places)
         # Two calls must change all or nothing.
-        before, flags = self.batch.snapshot(), self.batch.flags().tobytes()
+        before = self.batch.snapshot()
         try:
             self.batch.reset(values, seeded, **places)
             return self.batch.reset(None, following, **places)
         except BaseException:
             self.batch.restore(before)
-            self.batch.set_flags(flags)
             raise
 
     def filmed(self, step: Callable[[Any], Result], actions: object) -> Result:
@@ -147,32 +153,45 @@ class SkiTask:
             self.camera.advance(before if self.autoreset == "next_step" else np.zeros_like(before))
         return result
 
-    def snapshot(self) -> bytes:
-        """The batch, a byte per environment (1: was reset once, 2: its episode is over) and their CRC-32."""
-        flags = self.batch.flags().tobytes()
-        return self.batch.snapshot() + flags + zlib.crc32(flags).to_bytes(4, "little")
+    def snapshot(self, index: int | None = None) -> bytes:
+        """Every environment in the middle of its episode, or the one of that index, for `restore`."""
+        return self.batch.snapshot(index if index is None else self._index(index))
 
-    def restore(self, snapshot: bytes) -> None:
-        """Put the batch back to a snapshot of itself, or of one with the same options.
+    def restore(self, snapshot: bytes, index: int | None = None) -> None:
+        """Put the batch back to a snapshot of itself, or of one with the same options; or one environment of
+        it to where that, or another one, was.
 
         Raises:
-            TypeError: `snapshot` is no bytes.
-            ValueError: it is damaged or belongs to other options or another number of environments; nothing
-                has changed then.
+            TypeError: `snapshot` is no bytes, `index` no integer.
+            ValueError: it is damaged or belongs to other options or another number of environments, or there
+                is no such environment; nothing has changed then.
         """
         if not isinstance(snapshot, bytes):
             raise TypeError(f"snapshot: expected bytes, got {type(snapshot).__name__}")
-        end = max(len(snapshot) - self.num_envs - 4, 0)
-        batch, flags, checksum = snapshot[:end], snapshot[end:-4], snapshot[-4:]
-        if zlib.crc32(flags) != int.from_bytes(checksum, "little"):
-            raise ValueError(
-                f"snapshot: expected the bytes of a snapshot of {self.num_envs} environments, got "
-                f"{len(snapshot)} bytes whose checksum does not match"
-            )
-        self.batch.restore(batch)
-        self.batch.set_flags(flags)
+        index = index if index is None else self._index(index)
+        self.batch.restore(snapshot, index)
         if self.camera is not None:
-            self.camera.restart(np.ones(self.num_envs, np.bool_))
+            changed = np.full(self.num_envs, index is None)
+            changed[slice(None) if index is None else index] = True
+            self.camera.restart(changed)
+
+    def _index(self, index: object) -> int:
+        return _check.integer("index", index, 0, self.num_envs - 1)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes it again, in this process or another: a copy goes on with the same bits."""
+        return {
+            "arguments": self._arguments,
+            "snapshot": self.batch.snapshot(),
+            "paths": None if self.camera is None else self.camera.paths,
+        }
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make it again."""
+        SkiTask.__init__(self, **state["arguments"])
+        self.batch.restore(state["snapshot"])
+        if self.camera is not None:
+            self.camera.paths = state["paths"]
 
     def render(self, index: int = 0) -> NDArray[np.uint8]:
         """The command map of one environment, (height, width, 3) uint8."""

@@ -160,6 +160,21 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             self._refuse()
         return batch.step(actions) if task.camera is None else task.filmed(batch.step, actions)
 
+    def snapshot(self, index: int | None = None) -> bytes:
+        """Every environment in the middle of its episode, or the one of that index, for `restore`."""
+        return self._task.snapshot(index)
+
+    def restore(self, snapshot: bytes, index: int | None = None) -> None:
+        """Go back to a snapshot of this object or of one with the same options, whatever its autoreset mode,
+        threads or lanes; with an index put one environment to where it, or any other one, was.
+
+        Raises:
+            TypeError: `snapshot` is no bytes, `index` no integer.
+            ValueError: it is damaged or belongs to other options or another number of environments, or there
+                is no such environment; nothing has changed then.
+        """
+        self._task.restore(snapshot, index)
+
     def _refuse(self) -> NoReturn:
         """Say why no step can be taken."""
         if self._task.batch.fresh:
