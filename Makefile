@@ -149,6 +149,13 @@ instructions-anew: setup ## The same, committed anew
 features: setup ## That scenes pay nothing for what they leave out: against builds without it
 	$(PY) .ci/features.py
 
+.PHONY: verify verify-full
+verify: setup ## That bits depend on seeds and actions alone, and are the golden ones: the quick form
+	$(VENV)/bin/discjump verify --quick --against tests/golden/certificate.json
+
+verify-full: setup ## The same with everything crossed
+	nice -n 5 $(VENV)/bin/discjump verify --against tests/golden/certificate.json
+
 .PHONY: stress stress-long fuzz
 stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress
 	nice -n 5 $(VENV)/bin/discjump stress --out core/docs/stress

@@ -11,9 +11,10 @@
     features    what leaving a feature of a scene out changes
     theory      the simulator against closed forms
     stress      whether the simulator stands its extremes
+    verify      whether a rollout's bits depend on anything but seeds and actions
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, features, theory, stress, sb3 -> envs -> terrains, simulator,
+Arrows point down only: cli -> accuracy, features, theory, stress, verify, sb3 -> envs -> terrains, simulator,
 explosions -> _native.
 """
 

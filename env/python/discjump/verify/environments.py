@@ -197,16 +197,21 @@ class VectorBatch:
 
     def snapshot(self) -> bytes:
         """Everything, for `restore`."""
-        found: bytes = _keeper(self.envs).snapshot()
+        found: bytes = self.envs.snapshot()
         return found
 
     def restore(self, snapshot: bytes) -> None:
         """Go back to a snapshot."""
-        _keeper(self.envs).restore(snapshot)
+        self.envs.restore(snapshot)
 
+    def moved(self, index: int) -> bytes:
+        """One environment, for `settle`."""
+        found: bytes = self.envs.snapshot(index=index)
+        return found
 
-def _keeper(envs: Any) -> Any:
-    return envs if hasattr(envs, "snapshot") else envs._task
+    def settle(self, snapshot: bytes, index: int) -> None:
+        """Put one environment to where another was."""
+        self.envs.restore(snapshot, index=index)
 
 
 def subjects(chosen: Sequence[str], tiers: Sequence[str] = FIDELITIES) -> list[Environment]:

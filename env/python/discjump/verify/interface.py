@@ -29,6 +29,18 @@ class Batch(Protocol):
         ...
 
 
+class Movable(Batch, Protocol):
+    """A batch whose environments move to other batches one by one."""
+
+    def moved(self, index: int) -> bytes:
+        """One environment, for `settle`."""
+        ...
+
+    def settle(self, snapshot: bytes, index: int) -> None:
+        """Put one environment to where another was."""
+        ...
+
+
 class Subject(Protocol):
     """An environment id or a scene, in one fidelity tier. It pickles: other processes play it too."""
 

@@ -1,15 +1,17 @@
 """The rows of one subject: what is played beside its reference, and must give its bits."""
 
+import pickle
 import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from discjump.verify.draws import mix, shuffled
 from discjump.verify.form import CROWD, Form, configurations
-from discjump.verify.interface import DISABLED, NEXT_STEP, Subject
+from discjump.verify.interface import DISABLED, NEXT_STEP, Movable, Subject
 from discjump.verify.reference import Reference
 from discjump.verify.run import Difference, Run
 
@@ -53,7 +55,9 @@ def rows(table: "Table") -> Iterator[tuple[str, Play]]:
     for number in range(form.snapshots):
         for name, play in (("back", table.back), ("another object", table.elsewhere)):
             yield f"snapshot {number}: {name}", lambda play=play, number=number: play(number)  # type: ignore[misc]
+    yield "snapshot: pickled", table.pickled
     if len(subject.modes) > 1:
+        yield "snapshot: one by one into another batch", table.settled
         yield "reset order: one by one", table.one_by_one
         yield "reset order: halves, after others", table.halves
         yield "reset order: some in mid-episode", table.midway
@@ -157,6 +161,24 @@ class Table:
         """A snapshot goes on in another object: on other threads, in other lanes."""
         where = f"snapshot {number}: another object"
         return done([self.resumed(self.paused(number), where, 3, self.widths[0]).advance()])
+
+    def pickled(self) -> Outcome:
+        """A copy by pickle, in mid-episode."""
+        run = self.resumed(self.paused(0), "snapshot: pickled", 2, self.widths[-1])
+        run.batch = pickle.loads(pickle.dumps(run.batch))
+        return done([run.advance()])
+
+    def settled(self) -> Outcome:
+        """Each environment moves alone, to another index, into a batch of other threads and lanes."""
+        where = "snapshot: one by one into another batch"
+        first = self.resumed(self.paused(0), where, 1, self.widths[-1])
+        order = shuffled(64, 11)[:19]
+        second = self.run(first.environments[order], where, 2, self.widths[0])
+        second.batch.reset([seed + 1000 for seed in second.seeds])
+        for index, source in enumerate(order.tolist()):
+            cast(Movable, second.batch).settle(cast(Movable, first.batch).moved(source), index)
+        second.rows = first.rows[order]
+        return done([first, second.advance()])
 
     def moment(self, number: int) -> int:
         """The decision at which a snapshot is taken: within the episodes, the last one late enough that some

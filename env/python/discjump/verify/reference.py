@@ -42,6 +42,13 @@ class Reference:
         """Rows of every environment."""
         return int(self.actions.shape[1])
 
+    def at(self, environments: NDArray[np.int64], rows: NDArray[np.int64]) -> NDArray[np.void]:
+        """(k,): one row of each of k environments."""
+        # As bytes: numpy takes structured rows field by field, fifteen times slower.
+        bytes_of = self.table.reshape(-1, 1).view(np.uint8)
+        taken = np.take(bytes_of, environments * self.length + rows, axis=0)
+        return taken.view(self.table.dtype).reshape(-1)
+
     def digest(self) -> str:
         """SHA-256 of all that the first `digested` environments showed."""
         return _whole(self.environment_digest(i) for i in range(self.digested))

@@ -126,7 +126,7 @@ class Run:
             part = part._replace(indices=part.indices[chosen], columns=columns)
             rows, environments = rows[chosen], environments[chosen]
         self.compared += len(rows)
-        expected = self.reference.table[environments, rows]
+        expected = self.reference.at(environments, rows)
         got, wrong = self._shown(part, expected)
         if not wrong and got.tobytes() == expected.tobytes():
             return

@@ -185,7 +185,7 @@ def place(world: NDArray[np.void], player: int, seed: int) -> None:
     there = middle + np.array([aside[0] + 3.0 * player, aside[1], 0.25])
     if seed % 4 > 1:
         there += [256 * share(seed, 5) - 128, 128.0, 0.0]
-        there[2] = ground().height(there[:2]) + 0.25
+        there[2] = ground().height(there[None, :2])[0] + 0.25
     world["position"][player] = there
     world["velocity"][player] = [16 * share(seed, player, 2) - 8, 16 * share(seed, player, 3) - 8, 0.0]
     world["yaw"][player] = 0.5 * (mix(seed, player, 4) % 12) - 3.0
