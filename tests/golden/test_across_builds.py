@@ -1,8 +1,8 @@
 """The wheel's bits are those of the core's own tests, which are compiled otherwise.
 
-Contract: optimisation, debug assertions, link-time optimisation and target do not change a bit. The digests are
-in `core/tests/golden/episodes.txt`; `core/tests/golden.rs` plays the same in the profile, and for the target, of
-`cargo test`, and checks what was returned as well.
+Contract: optimisation, debug assertions, link-time optimisation and target do not change a bit. The digests
+are in `core/tests/golden/episodes.txt`; `core/tests/golden.rs` plays the same in the profile, and for the
+target, of `cargo test`, and checks what was returned as well.
 """
 
 from pathlib import Path
