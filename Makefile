@@ -156,6 +156,15 @@ verify: setup ## That bits depend on seeds and actions alone, and are the golden
 verify-full: setup ## The same with everything crossed
 	nice -n 5 $(VENV)/bin/discjump verify --against tests/golden/certificate.json
 
+# Wants `rustup target add` of both, and qemu's user mode (Debian: qemu-user-static). The linker comes with Rust.
+.PHONY: other-targets
+other-targets: ## The golden bits on aarch64 (emulated) and i686
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld \
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_RUNNER=qemu-aarch64-static \
+	  nice -n 5 cargo test --locked -p discjump-core --test golden --profile fast --target aarch64-unknown-linux-musl
+	CARGO_TARGET_I686_UNKNOWN_LINUX_MUSL_LINKER=rust-lld \
+	  nice -n 5 cargo test --locked -p discjump-core --test golden --profile fast --target i686-unknown-linux-musl
+
 .PHONY: stress stress-long fuzz
 stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress
 	nice -n 5 $(VENV)/bin/discjump stress --out core/docs/stress
@@ -170,6 +179,21 @@ fuzz: ## Coverage-guided search for FUZZ_SECONDS (wants `cargo install cargo-fuz
 	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz run ticks --sanitizer none -- \
 	  -max_len=120 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
 	cd core && RUSTC_BOOTSTRAP=1 nice -n 5 cargo fuzz cmin ticks --sanitizer none
+
+# Sanitizers and Miri want a nightly toolchain: rustup toolchain install nightly --component miri,rust-src
+HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+.PHONY: sanitize miri
+sanitize: ## Unsafe code under AddressSanitizer, the pool under ThreadSanitizer (wants nightly with rust-src)
+	RUSTFLAGS=-Zsanitizer=address cargo +nightly test --quiet --locked --target $(HOST) --target-dir target/address \
+	  -p discjump-core --lib --test lanes --test lanes_episodes --test snapshots --test stopped --test determinism \
+	  --test worlds --test solids
+	RUSTFLAGS=-Zsanitizer=thread cargo +nightly test --quiet --locked -Zbuild-std --target $(HOST) \
+	  --target-dir target/thread -p discjump-core --test stopped --test determinism --test worlds
+
+# Every operation of every lane against the scalar's takes hours there.
+miri: ## Lanes of AVX2 in Miri (wants nightly with miri and rust-src)
+	RUSTFLAGS=-Ctarget-feature=+avx2 MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test --quiet --locked \
+	  --target-dir target/miri -p discjump-core --lib --no-default-features --features ski -- --skip every_operation
 
 .PHONY: bench clean
 bench: .stamps/sync ## Benches of the core, release profile

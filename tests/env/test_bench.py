@@ -180,3 +180,14 @@ def test_the_native_clock_refuses_what_does_not_fit() -> None:
     sim = Simulator(generated(7), 3, scene="ski", threads=1)
     with pytest.raises(ValueError, match="inputs: expected k times 72 bytes with k >= 1, got 71"):
         time_players(sim._native, b"x" * 71, 1, 1)
+
+
+def test_copies_and_answers_are_measured(tmp_path: Path) -> None:
+    output, made = bench("--copies", out=tmp_path / "bench.json")
+    for row in made["copies"]:
+        assert f"| {row['what']} |" in output
+        assert 0 < row["low"] <= row["median"] <= row["high"]
+    answers = [row for row in made["copies"] if row["unit"] == "ms"]
+    assert len(answers) == 7
+    # Below 100 ms is measured, not tested; a call that ignored the signal would have had no end.
+    assert all(len(row["values"]) == 2 for row in answers)

@@ -56,9 +56,9 @@ def test_commands_of_other_packages_are_loaded(entries, monkeypatch):
     "value", ["no_such_package:train", "discjump.cli:no_such_name", "discjump.cli:GROUP"]
 )
 def test_a_broken_command_spoils_no_other(entries, value):
-    entries["replay"] = entry("replay", value)
+    entries["ghost"] = entry("ghost", value)
     assert run("--help").exit_code == 0
-    result = run("replay")
+    result = run("ghost")
     assert result.exit_code != 0
     assert value in result.output
 

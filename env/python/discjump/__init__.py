@@ -11,11 +11,14 @@
     features    what leaving a feature of a scene out changes
     theory      the simulator against closed forms
     stress      whether the simulator stands its extremes
+    replays     episodes and ticks in files, played again bit for bit
+    bisect      where two runs part
+    testing     conformance of any vector environment, for other people's CI
     verify      whether a rollout's bits depend on anything but seeds and actions
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, features, theory, stress, verify, sb3 -> envs -> terrains, simulator,
-explosions -> _native.
+Arrows point down only: cli -> accuracy, features, theory, stress, verify, bisect, sb3 -> replays -> envs ->
+terrains, simulator, explosions -> _native.
 """
 
 from importlib.metadata import version

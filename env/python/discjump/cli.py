@@ -10,8 +10,10 @@ import click
 from discjump import __version__
 from discjump.accuracy.command import accuracy
 from discjump.bench.command import bench
+from discjump.bisect.command import bisect
 from discjump.falloff_command import falloff
 from discjump.features.command import features
+from discjump.replays.command import replay
 from discjump.stress.command import stress
 from discjump.terrain_command import terrain
 from discjump.theory.command import theory
@@ -62,8 +64,10 @@ def main() -> None:
 
 main.add_command(accuracy)
 main.add_command(bench)
+main.add_command(bisect)
 main.add_command(falloff)
 main.add_command(features)
+main.add_command(replay)
 main.add_command(stress)
 main.add_command(terrain)
 main.add_command(theory)

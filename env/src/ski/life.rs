@@ -61,11 +61,16 @@ impl Life {
         flags
     }
 
-    /// They are as a snapshot had them.
-    pub(super) fn restore(&mut self, stages: &[LifeStage]) {
-        self.seeded = stages.iter().map(|&stage| stage != LifeStage::Fresh).collect();
-        self.over = (0..stages.len()).filter(|&env| stages[env] == LifeStage::Over).collect();
-        self.count();
+    /// An environment is where a snapshot had it.
+    pub(super) fn restore(&mut self, env: usize, stage: LifeStage) {
+        let seeded = stage != LifeStage::Fresh;
+        self.unseeded = self.unseeded + usize::from(self.seeded[env]) - usize::from(seeded);
+        self.seeded[env] = seeded;
+        match (self.over.binary_search(&env), stage) {
+            (Err(at), LifeStage::Over) => self.over.insert(at, env),
+            (Ok(at), LifeStage::Fresh | LifeStage::Running) => _ = self.over.remove(at),
+            _ => {}
+        }
     }
 
     fn count(&mut self) {

@@ -277,6 +277,13 @@ impl SkiBatch {
         Ok(array1(slf.py(), shared(slf)?.life.flags()))
     }
 
+    /// What names each episode: its environment's seed, and its number from 0 on since that seed was given;
+    /// both uint64 (num_envs,).
+    fn episodes<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u64>>) {
+        let (seeds, numbers) = self.batch.episodes().into_iter().unzip();
+        (array1(py, seeds), array1(py, numbers))
+    }
+
     /// Which terrain each episode runs on, int64 (num_envs,).
     fn terrain_index<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let indices = Self::whole(slf)?.batch.status().iter().map(|status| status.terrain as i64).collect();
@@ -316,7 +323,8 @@ impl SkiBatch {
             None => this.batch.restore(snapshot),
         })?;
         this.kept.clear();
-        this.life.restore(&this.batch.stages());
+        let restored = index.map_or(0..this.batch.len(), |index| index..index + 1);
+        restored.for_each(|env| this.life.restore(env, this.batch.stage_of(env)));
         Ok(())
     }
 

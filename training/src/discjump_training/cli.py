@@ -147,6 +147,12 @@ def _refuse_with_resume(given: dict[str, bool]) -> None:
 )
 @click.option("--baselines/--no-baselines", default=True, show_default=True, help="Judge all baselines too.")
 @click.option("--threads", type=click.IntRange(min=1), help="Of the simulator.  [default: all cores]")
+@click.option(
+    "--replays",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="FOLDER",
+    help="Save a replay of every episode there: COURSE-EPISODE-POLICY.replay, for `discjump replay`.",
+)
 def evaluate(
     policies: tuple[str, ...],
     course: str,
@@ -155,6 +161,7 @@ def evaluate(
     sampled: bool,
     baselines: bool,
     threads: int | None,
+    replays: Path | None,
 ) -> None:
     """Judge policies on terrain that none was trained on.
 
@@ -165,7 +172,16 @@ def evaluate(
     Opening a model file runs code it contains: open only files you trust.
     """
     with clean_errors():
-        _evaluate(policies, course, episodes, out, sampled=sampled, with_baselines=baselines, threads=threads)
+        _evaluate(
+            policies,
+            course,
+            episodes,
+            out,
+            sampled=sampled,
+            with_baselines=baselines,
+            threads=threads,
+            replays=replays,
+        )
 
 
 def _evaluate(
@@ -177,6 +193,7 @@ def _evaluate(
     sampled: bool = False,
     with_baselines: bool = True,
     threads: int | None = None,
+    replays: Path | None = None,
 ) -> None:
     from discjump_training import baselines, picture, report
     from discjump_training import evaluate as judging
@@ -187,7 +204,9 @@ def _evaluate(
     judged = []
     for name in judging.entrants(policies, with_baselines):
         click.echo(f"{name} plays {count} episodes ...", err=True)
-        judged.append(judging.judge(name, course, count, sampled=sampled, threads=threads, record=3))
+        judged.append(
+            judging.judge(name, course, count, sampled=sampled, threads=threads, record=3, replays=replays)
+        )
     compared = judging.compare(judged)
 
     runs = [Path(name) for name in policies if Path(name).is_dir()]
@@ -204,6 +223,8 @@ def _evaluate(
     report.show(Console(width=None if sys.stdout.isatty() else 160), course, count, judged, compared)
     for kind, suffix in (("Figures", "json"), ("Table", "md"), ("Picture", "png")):
         click.echo(f"{kind + ':':9}{folder / f'evaluation.{suffix}'}")
+    if replays is not None:
+        click.echo(f"Replays: {replays} ({count * len(judged)} episodes)")
 
 
 def _run_folder(name: str) -> Path:

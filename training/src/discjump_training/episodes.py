@@ -1,5 +1,6 @@
 """Plays the fixed episodes of a course with a policy, all at once."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import discjump  # noqa: F401  registers the environment ids
+from discjump.replays import EpisodeReplay, VectorRecorder
 from discjump_training.courses import Course
 from discjump_training.policy import Floats, Layout, Mask, Policy
 
@@ -87,14 +89,23 @@ class Stage:
         """Ticks per decision."""
         return int(self.inner.options.frame_skip)
 
-    def play(self, policy: Policy, record: tuple[int, ...] = ()) -> Episodes:
+    def play(
+        self,
+        policy: Policy,
+        record: tuple[int, ...] = (),
+        on_replay: Callable[[int, EpisodeReplay], object] | None = None,
+    ) -> Episodes:
         """Play every episode to its end.
 
         Args:
             policy: decides.
             record: rows whose paths are kept.
+            on_replay: called with the row and the replay of each episode when it is over.
         """
-        observations, info = self.inner.reset(seed=self._seeds)
+        env: Any = self.env
+        if on_replay is not None:
+            env = VectorRecorder(env, episodes=1, on_replay=lambda one: on_replay(one.made["index"], one))
+        observations, info = env.reset(seed=self._seeds)
         num_envs = len(self._seeds)
         policy.reset(np.ones(num_envs, np.bool_))
         goals, terrain = self.inner.goals(), self.inner.terrain_index
@@ -105,7 +116,7 @@ class Stage:
         # Environments whose episode is over go on with another one that nobody looks at.
         while running.any():
             self._record(paths, running)
-            observations, _, terminated, truncated, info = self.env.step(policy(observations))
+            observations, _, terminated, truncated, info = env.step(policy(observations))
             ended = running & (terminated | truncated)
             if ended.any():
                 for key in KEYS:

@@ -5,7 +5,8 @@ All policies meet the same episodes, so they are compared pair by pair. An episo
 death counts as 60 s. Intervals are 95% bootstrap intervals over episodes (the success rate's is exact).
 """
 
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 from stable_baselines3 import PPO
 
 from discjump.envs.options import SkiOptions
+from discjump.replays import EpisodeReplay
 from discjump.terrains import SURFACES
 from discjump_training import baselines, intervals, model
 from discjump_training.courses import COURSES, Course
@@ -120,6 +122,7 @@ def judge(
     threads: int | None,
     record: int,
     at_home: bool = False,
+    replays: Path | None = None,
 ) -> Judged:
     """Play a course with one policy.
 
@@ -131,6 +134,7 @@ def judge(
         threads: of the simulator.
         record: number of episodes whose paths are kept.
         at_home: models play in the physics that they were trained in, not in the task's.
+        replays: folder where the replay of every episode is saved; none where None.
 
     Raises:
         TrainingError: if the policy cannot be had or does not fit the environment.
@@ -143,7 +147,8 @@ def judge(
     else:
         stage = Stage(course, episodes, baselines.OPTIONS | PHYSICS, threads)
         policy = baselines.make(name, stage)
-    played = stage.play(policy, record=tuple(range(min(record, episodes))))
+    keep = None if replays is None else shelf(replays, course, name)
+    played = stage.play(policy, record=tuple(range(min(record, episodes))), on_replay=keep)
     stage.close()
     figures = {
         key: intervals.proportion(played.success)
@@ -152,6 +157,12 @@ def judge(
         for key, *_ in FIGURES
     }
     return Judged(policy.name, policy.note, is_model, played, figures, stage.frame_skip)
+
+
+def shelf(folder: Path, course: Course, policy: str) -> Callable[[int, EpisodeReplay], Path]:
+    """What saves replays in a folder, under names that tell course, episode and policy."""
+    called = re.sub(r"[^A-Za-z0-9.-]+", "-", policy).strip("-.")
+    return lambda row, replay: replay.save(folder / f"{course.name}-{row:04}-{called}.replay")
 
 
 def on_stage(

@@ -170,6 +170,8 @@ pub trait Environments: Send + Sync {
     /// # Panics
     /// If there is no such environment.
     fn status_of(&self, index: usize) -> Status;
+    /// Seed and number of every environment's episode, which together name it; (0, 0) before its first reset.
+    fn episodes(&self) -> Vec<(u64, u64)>;
     /// World position of every beacon, m.
     fn goals(&self) -> Vec<[f64; 3]>;
     /// The fields of a player's state after `position` (three f64), packed.
@@ -178,8 +180,11 @@ pub trait Environments: Send + Sync {
     fn state(&self) -> Vec<u8>;
     /// Bytes that one environment takes in memory, beside its observation row.
     fn bytes_per_environment(&self) -> usize;
-    /// Where each environment is in its life.
-    fn stages(&self) -> Vec<LifeStage>;
+    /// Where an environment is in its life.
+    ///
+    /// # Panics
+    /// If there is no such environment.
+    fn stage_of(&self, env: usize) -> LifeStage;
     /// Everything, as bytes that [`Environments::restore`] takes.
     fn snapshot(&self) -> Vec<u8>;
     /// Goes back to a snapshot of this batch or of another one of the same arguments. Autoreset modes may differ.

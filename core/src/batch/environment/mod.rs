@@ -134,8 +134,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             let (run, episode) = episode::read(tail);
             self.put(i, &Begun { player, run, episode });
         }
-        self.ready = false;
-        self.note_phases();
         Ok(())
     }
 
@@ -295,6 +293,10 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         self.describe(&block.player.lane(lane), &block.run.lane(lane), &self.episode(index))
     }
 
+    fn episodes(&self) -> Vec<(u64, u64)> {
+        (0..self.setup.count).map(|i| self.episode(i)).map(|e| (e.seed, e.episode)).collect()
+    }
+
     fn goals(&self) -> Vec<[f64; 3]> {
         self.each()
             .map(|(_, run, _)| {
@@ -319,13 +321,13 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
         size_of::<Block<S, R>>() / R::LANES
     }
 
-    fn stages(&self) -> Vec<LifeStage> {
-        let stage = |env| match self.episode(env).phase {
+    fn stage_of(&self, env: usize) -> LifeStage {
+        assert!(env < self.setup.count, "no environment {env}");
+        match self.episode(env).phase {
             Phase::Unseeded => LifeStage::Fresh,
             Phase::Running => LifeStage::Running,
             Phase::Terminated | Phase::Truncated => LifeStage::Over,
-        };
-        (0..self.setup.count).map(stage).collect()
+        }
     }
 
     fn snapshot(&self) -> Vec<u8> {
@@ -334,6 +336,8 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn restore(&mut self, bytes: &[u8]) -> Result<(), InputError> {
         self.open(0..self.setup.count, bytes)?;
+        self.ready = false;
+        self.note_phases();
         self.broken = false;
         Ok(())
     }
@@ -344,7 +348,17 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn restore_one(&mut self, env: usize, bytes: &[u8]) -> Result<(), InputError> {
         self.check_whole()?;
-        self.open(self.one_of(env)?, bytes)
+        self.open(self.one_of(env)?, bytes)?;
+        // Among many the others are not looked at again, unless it is their last hope of being ready.
+        if self.episode(env).phase == Phase::Unseeded {
+            self.ready = false;
+        }
+        if !self.ready {
+            self.note_phases();
+        }
+        self.finished.clear();
+        self.final_observations.clear();
+        Ok(())
     }
 
     fn digest(&self) -> String {

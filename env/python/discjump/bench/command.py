@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from discjump._results import machine, require_matplotlib, save, versions
-from discjump.bench import figure, figures, parts, peers, ppo, scenes
+from discjump.bench import copies, figure, figures, parts, peers, ppo, scenes
 from discjump.bench.clock import Case, Effort, Timed, interleave, spread
 from discjump.bench.ways import Agents, Players, Sb3, Single, Vector
 
@@ -31,6 +31,9 @@ QUICK = Effort(3, 0.01, quick=True)
 @click.option("--training", is_flag=True, help="With --figures: the environment's share of PPO too.")
 @click.option(
     "--scenes", "by_scene", is_flag=True, help="What scenes and tiers model, store and cost, without a task."
+)
+@click.option(
+    "--copies", "copied", is_flag=True, help="Snapshots, copies, two threads, the answer to Ctrl-C."
 )
 @click.option("--peers", "beside", is_flag=True, help="gymnasium's CartPole and EnvPool in the same run.")
 @click.option(
@@ -65,6 +68,7 @@ def bench(
     asked: bool,
     training: bool,
     by_scene: bool,
+    copied: bool,
     beside: bool,
     picture: Path | None,
     repeats: int,
@@ -80,7 +84,7 @@ def bench(
     a repeat, so that a busy machine slows them alike: trust ratios of one run. Tables show medians and
     quartiles over the repeats; the JSON has every repeat.
 
-    --figures, --scenes, --peers and --picture choose what is measured instead, and can be combined.
+    --figures, --scenes, --copies, --peers and --picture choose what is measured instead, and can be combined.
 
     --scenes also counts instructions where valgrind is installed: they do not depend on what else runs.
 
@@ -104,6 +108,9 @@ def bench(
     if by_scene:
         made["players"], made["rows"] = scenes.PLAYERS, scenes.measure(effort)
         click.echo(f"{scenes.lists()}\n\n{scenes.table(made['rows'])}")
+    if copied:
+        made["copies"] = copies.measure(effort)
+        click.echo(figure.table(made["copies"]))
     if beside:
         made["peers"] = peers.measure(effort, threads)
         click.echo(peers.table(made["peers"]))

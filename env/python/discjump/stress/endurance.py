@@ -31,6 +31,9 @@ HELD = 199
 """Ticks between two that are asked, in which the keys are held."""
 JUDGED = 2000
 """Samples that are judged at once."""
+ENGINE_FALL = 1000
+"""Ticks of a second that are fallen in `engine`: it cuts a path into decimetres, and a fall of t seconds takes
+t^2 / 2 of them."""
 LOST = 500.0
 """So far below the lowest ground one is put back, m."""
 
@@ -38,10 +41,11 @@ LOST = 500.0
 def endure(column: Column, ticks: int, seed: int, done: Callable[[float], object]) -> dict[str, Any]:
     """Play a tier for so many ticks, and ask one in 200 all that the matrix asks."""
     skiers = ski(column, ticks, seed, lambda share: done(0.8 * share))
-    age, wrong = fall(column, ticks)
+    fallen = min(ticks, ENGINE_FALL) if column.tier == "engine" else ticks
+    age, wrong = fall(column, fallen)
     done(1.0)
     skiers["failures"] += wrong
-    return {**skiers, "player_ticks": ticks * (SKIERS + FALLERS), "age": age}
+    return {**skiers, "player_ticks": ticks * SKIERS + fallen * FALLERS, "age": age}
 
 
 def ski(column: Column, ticks: int, seed: int, done: Callable[[float], object]) -> dict[str, Any]:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import click
 import numpy as np
 
+from discjump._text import described, shown
 from discjump.stress import energy, matrix, repeats
 from discjump.stress.cases import PRECISIONS, SURFACES, TIERS, Case, Column
 from discjump.stress.checks import judge, ticks_of
 from discjump.stress.floor import Floor
 from discjump.stress.play import play, prepared
-from discjump.stress.rules import Rows
 
 UNIT = {
     "ground": "m below what is allowed",
@@ -120,16 +120,3 @@ def replay(where: Address) -> tuple[str, bool]:
         sums = ", ".join(f"{name} {values[row]:.6g}" for name, values in ledger.items())
         lines += [f"  {'depth':<12}{deep}", f"  {'energy':<12}{sums} (m/s)^2"]
     return "\n".join(lines), True
-
-
-def described(inputs: Rows) -> str:
-    """The keys of a tick."""
-    return ", ".join(f"{name} {shown(inputs[name])}" for name in inputs.dtype.names or ())
-
-
-def shown(value: object) -> str:
-    """A number or a vector, to the last bit."""
-    array = np.asarray(value)
-    if array.ndim:
-        return f"({', '.join(shown(number) for number in array)})"
-    return repr(array.item()) if array.dtype.kind != "f" else f"{array[()]!s}"

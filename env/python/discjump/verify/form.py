@@ -17,8 +17,8 @@ class Form:
     """Of the reference."""
     crossed: bool
     """Threads x batch x lanes all crossed; else each with each of another."""
-    crowd_decisions: tuple[int, int] | None
-    """Decisions of the largest batch of environments, and calls of that of worlds; None: to the end."""
+    crowd_decisions: tuple[int, int]
+    """Decisions of the largest batch, and calls where it is of worlds, if it does not play all."""
     alone: int
     """Environments that are played alone or in threes."""
     scene_worlds: int
@@ -33,8 +33,17 @@ class Form:
     """By how many places everybody is moved."""
 
 
-FULL = Form("full", 64, True, None, 4, 32, 3, True, 16, (1, 31, 63))
+FULL = Form("full", 64, True, (60, 6), 4, 32, 3, True, 16, (1, 31, 63))
 QUICK = Form("quick", 16, False, (10, 1), 2, 8, 1, False, 4, (31,))
+
+
+def whole(form: Form, batch: int, threads: int, lanes: int, widths: list[int]) -> bool:
+    """Whether a configuration plays full episodes.
+
+    All do but for the largest batch, which does in the full form: on any threads in the widest lanes, in any
+    lanes on two threads.
+    """
+    return batch != CROWD or (form.crossed and (lanes == widths[-1] or threads == 2))
 
 
 def configurations(form: Form, widths: list[int]) -> list[tuple[int, int, int]]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from discjump.verify.draws import mix, shuffled
-from discjump.verify.form import CROWD, Form, configurations
+from discjump.verify.form import Form, configurations, whole
 from discjump.verify.interface import DISABLED, NEXT_STEP, Movable, Subject
 from discjump.verify.reference import Reference
 from discjump.verify.run import Difference, Run
@@ -123,9 +123,8 @@ class Table:
         where = f"batch {batch}, threads {threads}, lanes {lanes}"
         if batch < 64:
             return self._each(self._picked(batch), where, threads, lanes)
-        decisions = None
-        if batch == CROWD and self.form.crowd_decisions is not None:
-            decisions = self.form.crowd_decisions[self.subject.steps is not None]
+        short = self.form.crowd_decisions[self.subject.steps is not None]
+        decisions = None if whole(self.form, batch, threads, lanes, self.widths) else short
         return done([self.run(self.crowd(batch), where, threads, lanes).start().advance(decisions)])
 
     def position(self, shift: int) -> Outcome:
