@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from discjump.verify.matrix import Outcome, Table, done
 from discjump.verify.run import Run
+from discjump.verify.ways import SLOW
 
 METHODS = tuple(
     method for method in ("fork", "spawn", "forkserver") if method in multiprocessing.get_all_start_methods()
@@ -30,25 +31,24 @@ class Job:
     environments: NDArray[np.int64]
     rows: NDArray[np.int64]
 
-    def play(self, method: str) -> Outcome:
-        """Play it here."""
-        table, widest, where = self.table, self.table.widths[-1], f"process {method}"
+    def names(self, method: str, apart: bool) -> list[str]:
+        """The rows that a child plays."""
+        ways = [way for way in self.table.subject.ways() if way in SLOW] if apart else []
+        return [f"process {method}", *(f"way {way}" for way in ways)]
+
+    def play(self, name: str) -> Outcome:
+        """Play a row here."""
+        if name.startswith("way "):
+            return self.table.way(name.removeprefix("way "))
+        table, widest = self.table, self.table.widths[-1]
         runs = []
         if table.form.processes:
-            runs.append(table.run(table.crowd(64), where, 2, widest).start().advance())
-        runs.append(
-            table.run(table.crowd(POOLED), f"{where}, {POOLED}", 2, widest).start().advance(DECISIONS)
-        )
+            runs.append(table.run(table.crowd(64), name, 2, widest).start().advance())
+        runs.append(table.run(table.crowd(POOLED), f"{name}, {POOLED}", 2, widest).start().advance(DECISIONS))
         batch = table.subject.batch(len(self.environments), threads=2, lanes=table.widths[0], mode=table.mode)
         batch.restore(self.snapshot)
-        after = Run(
-            table.subject,
-            table.reference,
-            batch,
-            self.environments,
-            f"{where}, from its parent's snapshot",
-            self.rows,
-        )
+        where = f"{name}, from its parent's snapshot"
+        after = Run(table.subject, table.reference, batch, self.environments, where, self.rows)
         return done([*runs, after.advance()])
 
 
@@ -65,13 +65,16 @@ class Child:
     Args:
         method: how it is started.
         jobs: what it plays.
+        apart: whether it plays the ways in that are slow to import as well.
         patience: time without an answer after which it is given up, s.
     """
 
-    def __init__(self, method: str, jobs: list[Job], patience: float = PATIENCE) -> None:
+    def __init__(self, method: str, jobs: list[Job], apart: bool = False, patience: float = PATIENCE) -> None:
         context: Any = multiprocessing.get_context(method)
+        played = [(job, job.names(method, apart)) for job in jobs]
+        self._names = iter([names for _, names in played])
         self._answers, self._theirs = context.Pipe(duplex=False)
-        self._process = context.Process(target=_child, args=(self._theirs, method, jobs), daemon=True)
+        self._process = context.Process(target=_child, args=(self._theirs, played), daemon=True)
         self._name, self._patience = f"process {method}", patience
         self._failure = ""
 
@@ -80,8 +83,11 @@ class Child:
         self._process.start()
         self._theirs.close()
 
-    def next(self) -> Outcome:
-        """What became of the next job."""
+    def next(self) -> dict[str, Outcome]:
+        """What became of the rows of the next job."""
+        return {name: self._outcome() for name in next(self._names)}
+
+    def _outcome(self) -> Outcome:
         if not self._failure:
             try:
                 if self._answers.poll(self._patience):
@@ -103,14 +109,15 @@ class Child:
         self._answers.close()
 
 
-def _child(pipe: Connection, method: str, jobs: list[Job]) -> None:
+def _child(pipe: Connection, played: list[tuple[Job, list[str]]]) -> None:
     try:
-        for one in jobs:
-            try:
-                outcome = one.play(method)
-            except Exception as error:
-                outcome = Outcome(failure=f"process {method}: {type(error).__name__}: {error}")
-            pipe.send(outcome)
+        for one, names in played:
+            for name in names:
+                try:
+                    outcome = one.play(name)
+                except Exception as error:
+                    outcome = Outcome(failure=f"{name}: {type(error).__name__}: {error}")
+                pipe.send(outcome)
     except KeyboardInterrupt:
         pass
     finally:

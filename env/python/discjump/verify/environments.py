@@ -50,7 +50,7 @@ class Environment:
 
     modes = (DISABLED, NEXT_STEP, SAME_STEP)
     steps = None
-    digested = 16
+    digested = 12
 
     @property
     def name(self) -> str:

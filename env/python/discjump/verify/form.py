@@ -17,6 +17,8 @@ class Form:
     """Of the reference."""
     crossed: bool
     """Threads x batch x lanes all crossed; else each with each of another."""
+    decisions: int | None
+    """Decisions of what is neither a batch of 64, a snapshot nor an autoreset mode; None: full episodes."""
     crowd_decisions: tuple[int, int]
     """Decisions of the largest batch, and calls where it is of worlds, if it does not play all."""
     alone: int
@@ -33,8 +35,8 @@ class Form:
     """By how many places everybody is moved."""
 
 
-FULL = Form("full", 64, True, (60, 6), 4, 32, 3, True, 16, (1, 31, 63))
-QUICK = Form("quick", 16, False, (10, 1), 2, 8, 1, False, 4, (31,))
+FULL = Form("full", 64, True, None, (60, 6), 4, 32, 3, True, 16, (1, 31, 63))
+QUICK = Form("quick", 12, False, 200, (10, 1), 2, 8, 1, False, 4, (31,))
 
 
 def whole(form: Form, batch: int, threads: int, lanes: int, widths: list[int]) -> bool:

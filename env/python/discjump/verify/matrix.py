@@ -14,6 +14,7 @@ from discjump.verify.form import Form, configurations, whole
 from discjump.verify.interface import DISABLED, NEXT_STEP, Movable, Subject
 from discjump.verify.reference import Reference
 from discjump.verify.run import Difference, Run
+from discjump.verify.ways import SLOW
 
 
 @dataclass(frozen=True)
@@ -42,8 +43,11 @@ class Paused:
     difference: Difference | None
 
 
-def rows(table: "Table") -> Iterator[tuple[str, Play]]:
-    """Names of rows and how they are played; those of other processes are elsewhere (`children`)."""
+def rows(table: "Table", apart: bool = False) -> Iterator[tuple[str, Play]]:
+    """Names of rows and how they are played; those of other processes are elsewhere (`children`).
+
+    With `apart` the ways in that are slow to import are left to another process as well.
+    """
     subject, form = table.subject, table.form
     yield "seeds", table.seeds
     yield "again", table.again
@@ -64,7 +68,8 @@ def rows(table: "Table") -> Iterator[tuple[str, Play]]:
         for mode in subject.modes:
             yield f"autoreset {mode}", lambda mode=mode: table.autoreset(mode)  # type: ignore[misc]
     for way in subject.ways():
-        yield f"way {way}", lambda way=way: table.way(way)  # type: ignore[misc]
+        if not (apart and way in SLOW):
+            yield f"way {way}", lambda way=way: table.way(way)  # type: ignore[misc]
 
 
 class Table:
@@ -130,7 +135,8 @@ class Table:
     def position(self, shift: int) -> Outcome:
         """Everybody at another index."""
         where = f"position: {shift} places on"
-        return done([self.run(np.roll(self.crowd(64), shift), where, 1, 1).start().advance()])
+        run = self.run(np.roll(self.crowd(64), shift), where, 1, 1).start()
+        return done([run.advance(self.form.decisions)])
 
     def paused(self, number: int) -> "Paused":
         """A batch in mid-episode."""
@@ -192,7 +198,7 @@ class Table:
         for index in shuffled(16, 7):
             mask = np.arange(16) == index
             run.again(mask, [seed if chosen else None for seed, chosen in zip(run.seeds, mask, strict=True)])
-        return done([run.advance()])
+        return done([run.advance(self.form.decisions)])
 
     def halves(self) -> Outcome:
         """Other episodes first; then the seeds, in two halves of no order."""
@@ -203,16 +209,16 @@ class Table:
         half = shuffled(64, 8) < 32
         run.again(~half)
         run.again(half)
-        return done([run.advance()])
+        return done([run.advance(self.form.decisions)])
 
     def midway(self) -> Outcome:
         """Some begin again while others go on."""
         run = self.run(self.crowd(64), "reset order: some in mid-episode", 3, self.widths[-1]).start()
-        run.advance(self.reference.length // 3)
+        run.advance(100)
         some = shuffled(64, 9) < 20
         if run.difference is None:
             run.again(some, [seed if chosen else None for seed, chosen in zip(run.seeds, some, strict=True)])
-        return done([run.advance()])
+        return done([run.advance(self.form.decisions)])
 
     def autoreset(self, mode: str) -> Outcome:
         """The episodes in this autoreset mode."""
@@ -230,7 +236,13 @@ class Table:
             batch = self.subject.way(name, len(environments))
         except ImportError as error:
             return Outcome(skipped=str(error))
-        return done([Run(self.subject, self.reference, batch, environments, f"way {name}").start().advance()])
+        return done(
+            [
+                Run(self.subject, self.reference, batch, environments, f"way {name}")
+                .start()
+                .advance(self.form.decisions)
+            ]
+        )
 
     def _each(
         self,
@@ -242,7 +254,9 @@ class Table:
     ) -> Outcome:
         runs = []
         for environments in picked:
-            runs.append(self.run(environments, where, threads, lanes, mode).start().advance())
+            runs.append(
+                self.run(environments, where, threads, lanes, mode).start().advance(self.form.decisions)
+            )
             if runs[-1].difference is not None:
                 break
         return done(runs)

@@ -3,7 +3,6 @@
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,21 +13,12 @@ from discjump.verify.certificate import Certificate, Digests, RowResult
 from discjump.verify.form import FULL, QUICK, Form
 from discjump.verify.interface import Subject
 from discjump.verify.machine import described
-from discjump.verify.reference import Reference, record
+from discjump.verify.reference import record
 
 PACKAGES = ("discjump", "numpy", "gymnasium", "stable-baselines3")
 
 Done = Callable[[str], None]
 """Told after each row what is being played."""
-
-
-@dataclass(frozen=True)
-class Played:
-    """What one subject gave."""
-
-    table: matrix.Table
-    digests: Digests
-    results: list[RowResult]
 
 
 def verify(
@@ -95,28 +85,27 @@ def verified(
 ) -> Certificate:
     """Play the matrix of these subjects; doubles of our environments can be among them."""
     began = time.perf_counter()
+    tables = [table(subject, form) for subject in chosen]
     digests: dict[str, dict[str, Digests]] = {}
+    for one in tables:
+        digests.setdefault(one.subject.name, {})[one.subject.tier] = _digests(one)
+    jobs = [children.job(one) for one in tables] if processes else []
     results: list[RowResult] = []
-    jobs = []
-    for subject in chosen:
-        played = play(subject, form)
-        digests.setdefault(subject.name, {})[subject.tier] = played.digests
-        results += played.results
-        if processes:
-            jobs.append(children.job(played.table))
-        done(f"{subject.name}, {subject.tier}")
-    # All at once: most of a child's time is its start.
     with ExitStack() as stack:
-        families = [(method, children.Child(method, jobs)) for method in processes]
-        for _, outcomes in families:
-            stack.callback(outcomes.close)
-            outcomes.start()
-        for method, outcomes in families:
-            for subject in chosen:
+        # They play beside this process: most of their time is their start.
+        families = [children.Child(method, jobs, method == processes[-1]) for method in processes]
+        for child in families:
+            stack.callback(child.close)
+            child.start()
+        for one in tables:
+            results += played(one, bool(processes))
+            done(f"{one.subject.name}, {one.subject.tier}")
+        for method, child in zip(processes, families, strict=True):
+            for one in tables:
                 clock = time.perf_counter()
-                outcome = outcomes.next()
-                results.append(_result(subject, f"process {method}", outcome, time.perf_counter() - clock))
-                done(f"process {method}: {subject.name}, {subject.tier}")
+                for name, outcome in child.next().items():
+                    results.append(_result(one.subject, name, outcome, time.perf_counter() - clock))
+                done(f"process {method}: {one.subject.name}, {one.subject.tier}")
     return Certificate(
         form.name,
         command,
@@ -128,27 +117,31 @@ def verified(
     )
 
 
-def play(subject: Subject, form: Form) -> Played:
-    """The reference of a subject, and its rows in this process."""
+def table(subject: Subject, form: Form) -> matrix.Table:
+    """The reference of a subject, and what is played beside it."""
     count = form.environments if subject.steps is None else form.scene_worlds
-    reference = record(subject, np.arange(count))
-    table = matrix.Table(subject, reference, form)
+    return matrix.Table(subject, record(subject, np.arange(count)), form)
+
+
+def played(one: matrix.Table, apart: bool) -> list[RowResult]:
+    """The rows of a subject in this process."""
     results = []
-    for name, row in matrix.rows(table):
+    for name, row in matrix.rows(one, apart):
         clock = time.perf_counter()
         outcome = row()
-        results.append(_result(subject, name, outcome, time.perf_counter() - clock))
-    return Played(table, _digests(reference, table.widths), results)
+        results.append(_result(one.subject, name, outcome, time.perf_counter() - clock))
+    return results
 
 
-def _digests(reference: Reference, widths: list[int]) -> Digests:
+def _digests(one: matrix.Table) -> Digests:
+    reference = one.reference
     return Digests(
         reference.digest(),
         reference.actions_digest(),
         len(reference.seeds),
         reference.length,
         dict(reference.ends),
-        widths,
+        one.widths,
     )
 
 

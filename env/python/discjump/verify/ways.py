@@ -149,6 +149,9 @@ def synced(id: str, num: int, options: Mapping[str, Any]) -> Batch:
     return VectorBatch(envs, "NextStep", SHOWN_BY_OURS)
 
 
+SLOW = ("discjump.sb3.make_vec_env",)
+"""Those that import torch."""
+
 WAYS: dict[str, Callable[[str, int, Mapping[str, Any]], Batch]] = {
     "gymnasium.make": Singles,
     "gymnasium.make_vec, sync": synced,
