@@ -149,6 +149,22 @@ instructions-anew: setup ## The same, committed anew
 features: setup ## That scenes pay nothing for what they leave out: against builds without it
 	$(PY) .ci/features.py
 
+.PHONY: verify verify-full
+verify: setup ## That bits depend on seeds and actions alone, and are the golden ones: the quick form
+	$(VENV)/bin/discjump verify --quick --against tests/golden/certificate.json
+
+verify-full: setup ## The same with everything crossed
+	nice -n 5 $(VENV)/bin/discjump verify --against tests/golden/certificate.json
+
+# Wants `rustup target add` of both, and qemu's user mode (Debian: qemu-user-static). The linker comes with Rust.
+.PHONY: other-targets
+other-targets: ## The golden bits on aarch64 (emulated) and i686
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld \
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_RUNNER=qemu-aarch64-static \
+	  nice -n 5 cargo test --locked -p discjump-core --test golden --profile fast --target aarch64-unknown-linux-musl
+	CARGO_TARGET_I686_UNKNOWN_LINUX_MUSL_LINKER=rust-lld \
+	  nice -n 5 cargo test --locked -p discjump-core --test golden --profile fast --target i686-unknown-linux-musl
+
 .PHONY: stress stress-long fuzz
 stress: setup ## Extremes in every tier, precision and surface: the full matrix, into core/docs/stress
 	nice -n 5 $(VENV)/bin/discjump stress --out core/docs/stress

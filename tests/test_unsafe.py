@@ -15,5 +15,7 @@ def test_every_unsafe_block_is_listed() -> None:
         if count:
             found[path.relative_to(ROOT).as_posix()] = count
     page = (ROOT / "core/docs/unsafe.md").read_text()
-    listed = {name: int(count) for name, count in re.findall(r"^\| `([^`]+)` \| (\d+) \|", page, re.MULTILINE)}
+    listed = {
+        name: int(count) for name, count in re.findall(r"^\| `([^`]+)` \| (\d+) \|", page, re.MULTILINE)
+    }
     assert listed == found

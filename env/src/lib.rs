@@ -8,12 +8,14 @@
 //! * `blast`: the explosion formulas for arrays
 //! * `physics`: the switches of a `Physics`
 //! * `pools`: maps that batches share
+//! * `build`: what this library was built for
 //! * `arrays`: numpy arrays in and out; which buffers may be used again
 //! * `calls`: who may call, Ctrl-C, panics
 //! * `errors`: refusals as Python exceptions
 
 mod arrays;
 mod blast;
+mod build;
 mod calls;
 mod errors;
 mod measure;
@@ -31,6 +33,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::blast::blast_falloff;
+    #[pymodule_export]
+    use crate::build::build;
     #[pymodule_export]
     use crate::measure::{time_environments, time_players, time_resets};
     #[pymodule_export]

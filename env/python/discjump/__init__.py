@@ -14,9 +14,10 @@
     replays     episodes and ticks in files, played again bit for bit
     bisect      where two runs part
     testing     conformance of any vector environment, for other people's CI
+    verify      whether a rollout's bits depend on anything but seeds and actions
     cli         the command `discjump`
 
-Arrows point down only: cli -> accuracy, features, theory, stress, bisect, sb3 -> replays -> envs ->
+Arrows point down only: cli -> accuracy, features, theory, stress, verify, bisect, sb3 -> replays -> envs ->
 terrains, simulator, explosions -> _native.
 """
 

@@ -17,6 +17,7 @@ from discjump.replays.command import replay
 from discjump.stress.command import stress
 from discjump.terrain_command import terrain
 from discjump.theory.command import theory
+from discjump.verify.command import verify
 
 GROUP = "discjump.commands"
 
@@ -70,6 +71,7 @@ main.add_command(replay)
 main.add_command(stress)
 main.add_command(terrain)
 main.add_command(theory)
+main.add_command(verify)
 
 
 def _entries() -> dict[str, EntryPoint]:

@@ -38,6 +38,7 @@ pub(crate) use width::{Width, lane_width};
 use core::arch::x86_64::*;
 
 /// What a bounds check of a gather ends in: out of line, so that the lookup stays short.
+#[cfg(target_arch = "x86_64")]
 #[cold]
 #[inline(never)]
 fn out_of_range(len: usize) -> ! {
@@ -67,6 +68,7 @@ fn check_rows(lanes: usize, count: usize, len: usize, stride: usize, at: usize, 
 }
 
 /// The arithmetic operators of a lane type, each one intrinsic.
+#[cfg(target_arch = "x86_64")]
 macro_rules! operators {
     ($t:ident: $($trait:ident :: $method:ident = $intrinsic:ident),+) => {
         $(impl core::ops::$trait for $t {
@@ -79,11 +81,13 @@ macro_rules! operators {
         })+
     };
 }
+#[cfg(target_arch = "x86_64")]
 use operators;
 
 /// One lane of a register: read through an array on the stack, so that the register itself stays one; written
 /// in memory, where whatever is changed lane by lane lies anyway. To load it whole, change a lane and store
 /// it again would have every such change wait for the one before.
+#[cfg(target_arch = "x86_64")]
 macro_rules! lane_access {
     ($scalar:ty, $count:expr, $register:ty) => {
         #[inline(always)]
@@ -109,6 +113,7 @@ macro_rules! lane_access {
         }
     };
 }
+#[cfg(target_arch = "x86_64")]
 use lane_access;
 
 /// Integers modulo `n > 0`, for maps whose sides are no powers of two. Out of line: within a march its
