@@ -12,6 +12,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from discjump import Simulator, Terrain, cli
+from discjump._results import save
 from discjump.replays import Recorder, record
 
 
@@ -164,3 +165,22 @@ def test_a_picture_of_another_kind_is_refused(recording: Path, tmp_path: Path) -
     result = run("replay", recording, "--render", tmp_path / "picture")
     assert result.exit_code == 1
     assert "expected a file that ends in .png" in result.output
+
+
+def test_the_long_form_names_a_result_that_it_cannot_read(tmp_path: Path) -> None:
+    """A result that was cut off while it was written ended every later run in a traceback."""
+    (tmp_path / "long.json").write_text('{"comm')
+    result = run("stress", "--long", "--scale", "1e-6", "--out", tmp_path)
+    assert result.exit_code == 1
+    assert "long.json: expected an earlier result" in result.output
+
+
+def test_results_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    """Figures were written in place: who was stopped in the middle lost those that had been there."""
+    save(tmp_path / "figures.json", {"a": 1})
+    with pytest.raises(TypeError):
+        save(tmp_path / "figures.json", {"a": object()})
+    (tmp_path / "figures.json.new").mkdir()
+    with pytest.raises(OSError, match="new"):
+        save(tmp_path / "figures.json", {"a": 2})
+    assert json.loads((tmp_path / "figures.json").read_text()) == {"a": 1}
