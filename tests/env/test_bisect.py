@@ -225,7 +225,7 @@ def test_the_replay_starts_there_and_shows_the_same_difference(actions, tier, tm
     path = made.save(tmp_path / "start.replay")
     one = Side.parsed(str(path))
     assert load(path).to_bytes() == made.to_bytes()
-    changed = changes(both)
+    changed = changes(both, made)
     assert changed == f"fidelity={other}"
     if tier == "authentic":
         found = parted(one, Side.parsed(changed, one))
@@ -260,6 +260,7 @@ def test_where_only_rewards_differ_the_episode_is_kept_up_to_there(path):
     assert isinstance(made, EpisodeReplay)
     assert len(made.actions) == 1
     assert made.verify() is None
+    assert changes(both, made) == "reward.time=-1"
 
 
 # ------------------------------------------------------------------------------------ numbers

@@ -11,9 +11,11 @@ import click
 
 
 def save(path: Path, figures: dict[str, Any]) -> None:
-    """Write figures as JSON."""
+    """Write figures as JSON: whole, or not at all where the command is stopped in the middle."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(figures, indent=1) + "\n")
+    fresh = path.with_name(f"{path.name}.new")
+    fresh.write_text(json.dumps(figures, indent=1) + "\n")
+    fresh.replace(path)
 
 
 def machine() -> dict[str, Any]:

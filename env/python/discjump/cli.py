@@ -4,6 +4,7 @@ Other packages add subcommands through the entry-point group `discjump.commands`
 """
 
 from importlib.metadata import EntryPoint, entry_points
+from typing import Any
 
 import click
 
@@ -31,6 +32,15 @@ TRAINING = {
 
 class Commands(click.Group):
     """Our own subcommands and those of other packages, loaded only when asked for."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the subcommand; a file that cannot be read or written is named, without a traceback."""
+        try:
+            return super().invoke(ctx)
+        except OSError as error:
+            if error.filename is None:
+                raise
+            raise click.ClickException(f"{error.filename}: {error.strerror}") from error
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """All names in alphabetical order."""

@@ -6,20 +6,21 @@ from typing import Any
 import click
 import numpy as np
 
+from discjump._options import FiniteRange
 from discjump._results import require_matplotlib, save
 from discjump.explosions import falloff as curve
 
 FORMULAS = {"tribes": "tribes", "basic": "basic", "linear_boosted": "linear, boosted by 26/11"}
 """Formulas and what the picture calls them."""
 
-METRES = click.FloatRange(0.0, 1e6, min_open=True)
+METRES = FiniteRange(0.0, 1e6, min_open=True)
 
 
 @click.command()
 @click.option("--radius", type=METRES, default=7.5, show_default=True, help="Of the explosion, m.")
 @click.option(
     "--min-box",
-    type=click.FloatRange(0.0, 1e6),
+    type=FiniteRange(0.0, 1e6),
     default=1.0,
     show_default=True,
     help="Smallest side of the player's box, m: light 1.0, medium 1.4, heavy 1.6.",

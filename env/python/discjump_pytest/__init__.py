@@ -1,8 +1,8 @@
 """The pytest plugin of discjump: conformance of vector environments as test items, and fixtures.
 
-    pytest --discjump-verify                 one item for each check of each environment that the project
-    declares pytest --discjump-verify -m discjump     these items alone
-    pytest --discjump-verify --discjump-env CartPole-v1
+    pytest --discjump-verify                              one item for each check of each declared environment
+    pytest --discjump-verify -m discjump                  these items alone
+    pytest --discjump-verify --discjump-env CartPole-v1   one more environment
 
 Environments are declared in the ini file (`discjump_envs`) or by the hook `pytest_discjump_envs` in
 conftest.py; `discjump.testing.declared` has the grammar. A package of its own, because pytest loads plugins

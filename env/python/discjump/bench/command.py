@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from discjump._options import FiniteRange
 from discjump._results import machine, require_matplotlib, save, versions
 from discjump.bench import copies, figure, figures, parts, peers, ppo, scenes
 from discjump.bench.clock import Case, Effort, Timed, interleave, spread
@@ -44,7 +45,7 @@ QUICK = Effort(3, 0.01, quick=True)
 @click.option("--repeats", type=click.IntRange(3, 1000), default=9, show_default=True, help="Timed repeats.")
 @click.option(
     "--seconds",
-    type=click.FloatRange(0.001, 60),
+    type=FiniteRange(0.001, 60),
     default=0.25,
     show_default=True,
     help="Length of a repeat of one case, s.",

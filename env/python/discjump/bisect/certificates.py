@@ -45,6 +45,8 @@ class Certificates:
             return None
         if found[1] is None:
             raise SideError(f"{b}: expected a certificate like A ({SCHEMA}), got something else")
+        for (path, _), certificate in zip(parts, found, strict=True):
+            _check_shape(path, certificate)
         pythons = [change.pop("python", None) for _, change in parts]
         for text, (_, change) in zip((a, b), parts, strict=True):
             if change:
@@ -129,6 +131,23 @@ def _read(path: str) -> dict[str, Any] | None:
         return None
     whole = isinstance(found, dict) and found.get("schema") == SCHEMA
     return found if whole and {"digests", "rows", "versions", "machine"} <= found.keys() else None
+
+
+def _check_shape(path: str, certificate: Any) -> None:
+    """Refuse a certificate that lacks what is read here.
+
+    Raises:
+        SideError: names the file.
+    """
+    try:
+        for tiers in certificate["digests"].values():
+            for digest in tiers.values():
+                digest["digest"], digest["environments"]
+        for row in certificate["rows"]:
+            row["result"], row["subject"], row["tier"], row["row"]
+        certificate["versions"].get, certificate["machine"].get
+    except (AttributeError, LookupError, TypeError):
+        raise SideError(f"{path}: expected a certificate of `discjump verify`, got a malformed one") from None
 
 
 def _processor(certificate: dict[str, Any]) -> str:

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from discjump._options import FiniteRange
 from discjump._results import save
 from discjump.bisect import report
 from discjump.bisect.certificates import Certificates
@@ -24,7 +25,7 @@ OUT = Path("runs/bisect")
 @click.argument("b", metavar="B")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(0.0, 1e9),
+    type=FiniteRange(0.0, 1e9),
     default=0.0,
     show_default=True,
     metavar="METRES",
@@ -76,12 +77,12 @@ def bisect(a: str, b: str, tolerance: float, out: Path) -> None:
             if outcome.parting is not None:
                 break
         figures = told(sides, outcome, tolerance, out)
+        save(out / "bisect.json", figures)
     except BrokenPipeError:
         raise
     except (SideError, ReplayError, OSError) as error:
         click.echo(f"Error: {error}", err=True)
         raise SystemExit(2) from error
-    save(out / "bisect.json", figures)
     raise SystemExit(0 if figures["same"] else 1)
 
 
@@ -98,8 +99,9 @@ def told(sides: tuple[Side, Side], outcome: Outcome, tolerance: float, out: Path
     click.echo(report.text(sides, outcome, contacts))
     figures = report.as_json(sides, outcome, contacts)
     if parting is not None:
-        path = starting(sides, parting).save(out / "bisect.replay")
-        again = shlex.join(["discjump", "bisect", str(path), changes(sides)])
+        made = starting(sides, parting)
+        path = made.save(out / "bisect.replay")
+        again = shlex.join(["discjump", "bisect", str(path), changes(sides, made)])
         figures |= {"replay": str(path), "command": again}
         click.echo(f"\nstarts there:  {path}\ngo on with:    {again}")
         if tolerance:

@@ -12,6 +12,7 @@ from typing import Any
 from discjump import _check, replays
 from discjump.replays import EpisodeReplay, Replay, ReplayError, TickReplay, grounds
 from discjump.replays.bare import build, play
+from discjump.replays.replay import MOST_EPISODES
 
 WAYS = ("threads", "lanes", "batch", "index")
 """How a side is played: what must change no bit."""
@@ -119,7 +120,7 @@ def changed(replay: Replay, changes: Mapping[str, Any]) -> Replay:
         if switch in groups.get(group, ()):
             groups[group][switch] = value
         elif name in EPISODE and isinstance(replay, EpisodeReplay):
-            header[name] = _check.integer(name, value, 0, 2**64 - 1 if name == "seed" else 2**24)
+            header[name] = _episode_number(name, value)
         elif name == "surface" and isinstance(replay, TickReplay):
             continue
         elif name in options and name not in (*FIXED, *groups):
@@ -133,6 +134,13 @@ def changed(replay: Replay, changes: Mapping[str, Any]) -> Replay:
     if "surface" in changes:
         made = _resurfaced(made, str(changes["surface"]))
     return made
+
+
+def _episode_number(name: str, value: object) -> int:
+    try:
+        return _check.integer(name, value, 0, _check.SEEDS - 1 if name == "seed" else MOST_EPISODES)
+    except (TypeError, ValueError) as error:
+        raise SideError(str(error)) from None
 
 
 def _resurfaced(replay: Replay, surface: str) -> Replay:

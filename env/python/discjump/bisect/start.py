@@ -1,6 +1,7 @@
 """A replay that starts where two sides part."""
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 
 from discjump._native import Terrain
 from discjump.bisect.lockstep import Parting
-from discjump.bisect.sides import Side
+from discjump.bisect.sides import EPISODE, Side
 from discjump.replays import EpisodeReplay, Replay, TickReplay
 from discjump.replays.bare import build, play
 from discjump.replays.ticks import ARGUMENTS
@@ -109,19 +110,32 @@ def inputs_of(actions: NDArray[Any], turn_rate: float, real: np.dtype[Any]) -> N
     return made
 
 
-def changes(sides: tuple[Side, Side]) -> str:
-    """What makes the second side of the replay that `starting` gives: where its options and way differ."""
+def changes(sides: tuple[Side, Side], start: Replay) -> str:
+    """What makes the second side of `start`, which `starting` gave: where its options and way differ.
+
+    A simulator's replay takes an environment's options as far as they are a simulator's, an episode all.
+    """
     k = chosen(sides)
     one, other = sides[k], sides[1 - k]
-    made = []
-    mine = arguments(one.replay.options)
-    for name, value in arguments(other.replay.options).items():
-        if name == "physics":
-            pairs = vars(value).items()
-            made += [f"physics.{key}={json.dumps(v)}" for key, v in pairs if v != getattr(mine[name], key)]
-        elif value != mine.get(name):
-            made.append(f"{name}={value if isinstance(value, str) else json.dumps(value)}")
+    mine, theirs = (dict(_words(side.replay, isinstance(start, EpisodeReplay))) for side in (one, other))
+    made = [f"{name}={value}" for name, value in theirs.items() if value != mine.get(name)]
     for name in ("threads", "lanes", "batch", "index"):
         if getattr(other.way, name) != getattr(play.Way(), name):
             made.append(f"{name}={getattr(other.way, name)}")
     return ",".join([*made, *([f"python={other.python}"] if other.python else [])])
+
+
+def _words(replay: Replay, episode: bool) -> Iterator[tuple[str, str]]:
+    """Names and values of a replay's options as one types them, the switches of a group one by one."""
+    options = replay.header["options"]
+    if episode:
+        options = {**options, **{name: replay.header[name] for name in EPISODE}}
+    else:
+        options = {**arguments(options), "physics": options["physics"]}
+    for name, value in options.items():
+        group = (
+            {f"{name}.{key}": one for key, one in value.items()} if isinstance(value, dict) else {name: value}
+        )
+        for key, one in group.items():
+            # Without spaces, and so without a need of quotes in most shells.
+            yield key, one if isinstance(one, str) else json.dumps(one, separators=(",", ":"))

@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from discjump._options import FiniteRange
 from discjump._results import machine, save, versions
 from discjump.features.measure import APART, FEATURES, ROUTES, SEEDS, measure
 
@@ -15,7 +16,7 @@ from discjump.features.measure import APART, FEATURES, ROUTES, SEEDS, measure
 )
 @click.option(
     "--seconds",
-    type=click.FloatRange(1.0, 600.0),
+    type=FiniteRange(1.0, 600.0),
     default=60.0,
     show_default=True,
     help="How long they play, s.",

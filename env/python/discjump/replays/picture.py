@@ -17,8 +17,11 @@ def draw(replay: Replay, path: Path) -> None:
     """Play the episode and draw its path.
 
     Raises:
-        ReplayError: the replay is of a simulator, which has no beacon; or it cannot be played here.
+        ReplayError: `path` is no .png; the replay is of a simulator, which has no beacon; it cannot be
+            played here.
     """
+    if path.suffix.lower() != ".png":
+        raise ReplayError(f"render: expected a file that ends in .png, got {path}")
     if not isinstance(replay, EpisodeReplay):
         raise ReplayError("render: expected the replay of an environment, got one of a simulator")
     points, yaw, goal, ground = [], 0.0, np.zeros(3), None

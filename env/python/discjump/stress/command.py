@@ -8,8 +8,10 @@ from typing import Any
 
 import click
 import numpy as np
+from click.core import ParameterSource
 
 from discjump._native import Terrain
+from discjump._options import FiniteRange
 from discjump._results import machine, require_matplotlib, save, versions
 from discjump.simulator import ARMORS, SCENES
 from discjump.stress import expected, extremes, matrix, own, report
@@ -46,7 +48,7 @@ class Asked:
         assert self.terrain is not None
         try:
             return Terrain.from_heights(np.load(self.terrain), self.square_size, edge=self.edge)
-        except (OSError, ValueError, TypeError) as error:
+        except (EOFError, OSError, ValueError, TypeError) as error:
             raise click.ClickException(f"{self.terrain}: {error}") from error
 
     def cases(self) -> list[Case]:
@@ -126,7 +128,7 @@ class Asked:
 )
 @click.option(
     "--scale",
-    type=click.FloatRange(0.0, 1000.0, min_open=True),
+    type=FiniteRange(0.0, 1000.0, min_open=True),
     default=1.0,
     show_default=True,
     help="Of --long: how much of that is played.",
@@ -187,6 +189,7 @@ def stress(
         click.echo(text)
         raise SystemExit(1 if found else 0)
     if long:
+        _refuse_with_long("terrain", "seed", "tiers", "precisions", "surfaces", "only", "quick")
         raise SystemExit(long_form(out, scale, draws))
     require_matplotlib("discjump stress")
     chosen = columns(
@@ -221,7 +224,7 @@ def measured(asked: Asked, chosen: list[Column], only: tuple[str, ...], command:
     for name in only:
         if name not in names:
             raise click.BadParameter(
-                f"expected some of {', '.join(names)}, got {name!r}", param_hint="--extremes"
+                f"expected some of {', '.join(map(repr, names))}, got {name!r}", param_hint="--extremes"
             )
     cases = [case for case in cases if not only or case.extreme in only]
     began = time.perf_counter()
@@ -272,6 +275,18 @@ def _figures(cell: matrix.Cell, options: list[str]) -> dict[str, Any]:
         "player_ticks": cell.player_ticks,
         "findings": [{**finding, "replay": again(finding)} for finding in cell.findings],
     }
+
+
+def _refuse_with_long(*names: str) -> None:
+    """The long form plays grounds, tiers and lengths of its own: what it would not heed is refused.
+
+    Raises:
+        click.UsageError: one of these options was given.
+    """
+    ctx = click.get_current_context()
+    for param in ctx.command.params:
+        if param.name in names and ctx.get_parameter_source(param.name) is ParameterSource.COMMANDLINE:
+            raise click.UsageError(f"{param.opts[0]}: expected it without --long, got both")
 
 
 def _repeated(option: str, values: tuple[str, ...]) -> list[str]:

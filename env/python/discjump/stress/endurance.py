@@ -32,8 +32,8 @@ HELD = 199
 JUDGED = 2000
 """Samples that are judged at once."""
 ENGINE_FALL = 1000
-"""Ticks of a second that are fallen in `engine`: it cuts a path into decimetres, and a fall of t seconds takes
-t^2 / 2 of them."""
+"""Ticks of a second that are fallen in `engine`: it cuts a path into decimetres, and a fall of t seconds
+takes t^2 / 2 of them."""
 LOST = 500.0
 """So far below the lowest ground one is put back, m."""
 

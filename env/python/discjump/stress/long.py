@@ -28,7 +28,12 @@ def long_form(out: Path, scale: float, seed: int) -> int:
     command = " ".join([*words, f"--out {out}"])
     record: dict[str, Any] = {"command": command, "parts": {}}
     if figures.exists():
-        before = json.loads(figures.read_text())
+        try:
+            before = json.loads(figures.read_text())
+        except ValueError as error:
+            raise click.ClickException(
+                f"{figures}: expected an earlier result to go on with, got {error}"
+            ) from None
         if before.get("command") == command and before["versions"] == versions("discjump", "numpy"):
             record = before
             click.echo(f"{figures}: {len(record['parts'])} parts are done already")

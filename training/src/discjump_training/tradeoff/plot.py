@@ -19,10 +19,12 @@ if TYPE_CHECKING:
 
 COLUMNS = 2
 MARKS = {"triangles": "o", "bilinear": "s"}
-BESIDE = {TRUTH: ": the truth (0)", DEFAULT: ": the default"}
+BESIDE = {TRUTH: ": the truth", DEFAULT: ": the default"}
 """Named even where they are dominated."""
 GREY, DARK = "0.80", "0.45"
 """Of dominated marks, and of what is written about them."""
+LETTER = 0.0145
+"""Width of a letter of a name, as a share of the panel's width."""
 NEAREST = 0.045
 """Between names, as a share of the panel's height."""
 
@@ -69,8 +71,7 @@ def show(axes: "Axes", panel: Panel) -> None:
     for point, kept in zip(panel.points, best, strict=True):
         _mark(axes, panel, point, kept=bool(kept))
     marked = list(zip(panel.points, best, strict=True))
-    _names(axes, panel, [point for point, kept in marked if kept], kept=True)
-    _names(axes, panel, [point for point, kept in marked if not kept and point.config in BESIDE], kept=False)
+    _names(axes, panel, [(point, bool(kept)) for point, kept in marked if kept or point.config in BESIDE])
 
 
 def _has_squares(panels: list[Panel]) -> bool:
@@ -107,7 +108,7 @@ def _mark(axes: "Axes", panel: Panel, point: Point, *, kept: bool) -> None:
     )
 
 
-def _names(axes: "Axes", panel: Panel, named: list[Point], *, kept: bool) -> None:
+def _names(axes: "Axes", panel: Panel, named: list[tuple[Point, bool]]) -> None:
     """Names at the right of their marks, of dominated ones at the left where there is room; apart."""
     low, high = np.log10(axes.get_ylim())
     left, right = np.log10(axes.get_xlim())
@@ -115,16 +116,18 @@ def _names(axes: "Axes", panel: Panel, named: list[Point], *, kept: bool) -> Non
     def across(speed: float) -> float:
         return float((np.log10(speed) - left) / (right - left))
 
-    heights = [float((np.log10(max(point.error, panel.floor)) - low) / (high - low)) for point in named]
+    heights = [float((np.log10(max(point.error, panel.floor)) - low) / (high - low)) for point, _ in named]
     scale = APART / NEAREST
     places = [place / scale for place in spread_out([height * scale for height in heights])]
-    for point, height, place in zip(named, heights, places, strict=True):
-        median, slow, fast = point.speed
-        to_left = not kept and across(median) > 0.45
+    for (point, kept), height, place in zip(named, heights, places, strict=True):
+        _, slow, fast = point.speed
         colour = COLOURS[point.config.tier] if kept else DARK
         text = point.config.name + BESIDE.get(point.config, "")
-        if point.error <= panel.floor and point.config != TRUTH:
+        if point.config == TRUTH and point.error == 0.0:
+            text += " (0)"
+        elif point.error <= panel.floor:
             text += f", below {panel.floor:g} {panel.unit}"
+        to_left = not kept and across(slow) > LETTER * len(text) + 0.05
         end, side = (across(slow), -1) if to_left else (across(fast), 1)
         end += side * 0.016
         x = end + side * 0.022
