@@ -33,8 +33,9 @@ pub fn shared<'py, T: PyClass>(object: &Bound<'py, T>) -> PyResult<PyRef<'py, T>
 
 fn busy() -> PyErr {
     PyRuntimeError::new_err(
-        "expected one call at a time, got one while another thread steps the same object (or stepped it when \
-         this process was forked): give each thread an object of its own",
+        "expected one call at a time, got one while another thread, or what a signal interrupted, is in the \
+         middle of another on the same object (or was when this process was forked): give each an object of its \
+         own",
     )
 }
 

@@ -5,6 +5,8 @@ every axis being played, and on a broken environment failing the row that names 
 """
 
 import json
+import multiprocessing
+import os
 import re
 import signal
 import subprocess
@@ -12,6 +14,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,8 +24,10 @@ from discjump import cli
 from discjump.simulator import FIDELITIES, SCENES
 from discjump.verify import Certificate, compare, verified, verify
 from discjump.verify.certificate import BadCertificate
+from discjump.verify.children import METHODS, Child
 from discjump.verify.environments import Environment, ids
 from discjump.verify.form import FULL, QUICK, configurations
+from discjump.verify.matrix import Outcome
 from discjump.verify.parts import ulps
 
 from . import broken
@@ -108,6 +113,50 @@ class TestDoubles:
 
     def test_an_autoreset_mode_that_loses_something(self):
         assert list(failing(broken.Autoreset)) == ["autoreset SameStep"]
+
+
+class Fate:
+    """A job whose child dies, hangs or raises at its second row."""
+
+    def __init__(self, end):
+        self.end = end
+
+    def names(self, method, apart):
+        return ["first", "second", "third"]
+
+    def play(self, name):
+        if name == "second":
+            self.end()
+        return Outcome(compared=1)
+
+
+def fail():
+    raise ArithmeticError("no more digits")
+
+
+@pytest.mark.parametrize(
+    ("end", "told", "after"),
+    [
+        (lambda: os._exit(3), "process fork: ended with exit code 3", "process fork: ended with exit code 3"),
+        (lambda: time.sleep(300), "gave no answer within 1 s", "gave no answer within 1 s"),
+        (fail, "second: ArithmeticError: no more digits", ""),
+    ],
+    ids=["dies", "hangs", "raises"],
+)
+@pytest.mark.skipif("fork" not in METHODS, reason="there is no fork here")
+def test_a_child_that_fails_is_told_and_ended(end, told, after):
+    jobs: Any = [Fate(end)]
+    child = Child("fork", jobs, patience=1.0)
+    child.start()
+    outcomes = child.next()
+    began = time.monotonic()
+    child.close()
+    assert time.monotonic() - began < 60
+    assert outcomes["first"] == Outcome(compared=1)
+    assert told in outcomes["second"].failure
+    assert after in outcomes["third"].failure
+    assert bool(after) == bool(outcomes["third"].failure)
+    assert not multiprocessing.active_children()
 
 
 def configured():

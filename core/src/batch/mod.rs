@@ -5,6 +5,7 @@ mod codec;
 mod crowd;
 #[cfg(feature = "ski")]
 mod environment;
+mod legal;
 mod neighbourhood;
 mod pool;
 mod raw_input;

@@ -34,6 +34,9 @@ use step::{FlatStep, Outputs, SingleStep, Step};
 /// Name, first number, end, unit and scale of a stretch of an observation.
 type Stretch = (&'static str, usize, usize, &'static str, f64);
 
+/// Seeds and numbers of episodes.
+type Names<'py> = (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u64>>);
+
 /// Private: a batch of ski environments.
 #[pyclass(module = "discjump._native")]
 pub struct SkiBatch {
@@ -279,9 +282,9 @@ impl SkiBatch {
 
     /// What names each episode: its environment's seed, and its number from 0 on since that seed was given;
     /// both uint64 (num_envs,).
-    fn episodes<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u64>>) {
-        let (seeds, numbers) = self.batch.episodes().into_iter().unzip();
-        (array1(py, seeds), array1(py, numbers))
+    fn episodes<'py>(slf: &Bound<'py, Self>) -> PyResult<Names<'py>> {
+        let (seeds, numbers) = Self::whole(slf)?.batch.episodes().into_iter().unzip();
+        Ok((array1(slf.py(), seeds), array1(slf.py(), numbers)))
     }
 
     /// Which terrain each episode runs on, int64 (num_envs,).

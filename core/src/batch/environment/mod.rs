@@ -2,6 +2,7 @@
 
 use super::alone::PLAYERS;
 use super::codec::{place, read_player, write_player, write_state};
+use super::legal::{check_place, check_played};
 use super::pool::{Crew, resolve_threads};
 use super::simulator::find_armor;
 use super::snapshot;
@@ -127,12 +128,40 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         if body.len() != stride * envs.len() {
             refuse!("snapshot: expected {} bytes, got {}", stride * envs.len(), body.len());
         }
-        for (i, bytes) in envs.zip(body.chunks_exact(stride)) {
+        // A checksum tells damage, not what a stranger wrote: nobody is put back before all were looked at.
+        let mut read = Vec::with_capacity(envs.len());
+        for (i, bytes) in envs.clone().zip(body.chunks_exact(stride)) {
             let mut player = self.blocks[i / R::LANES].player.lane(i % R::LANES);
             let (head, tail) = bytes.split_at(stride - episode::BYTES);
             read_player(&mut player, true, head);
             let (run, episode) = episode::read(tail);
-            self.put(i, &Begun { player, run, episode });
+            let begun = Begun { player, run, episode };
+            self.check_begun(&begun, &format!("snapshot: environment {i}"))?;
+            read.push(begun);
+        }
+        for (i, begun) in envs.zip(&read) {
+            self.put(i, begun);
+        }
+        Ok(())
+    }
+
+    /// Refuses an episode of a snapshot that cannot have been played.
+    fn check_begun(&self, begun: &Begun<S, R::Scalar>, at: &str) -> Result<(), InputError> {
+        let Begun { player, run, episode } = begun;
+        let maps = &self.setup.maps;
+        check_played(player, maps, &self.rules, at)?;
+        check_place(maps, run.goal, run.goal_tile, &format!("{at}.goal"))?;
+        let map = episode.map as usize;
+        if map >= maps.count() || maps.offset(map) != player.map {
+            refuse!("{at}.terrain: expected 0 to {}, the player's, got {map}", maps.count() - 1);
+        }
+        let limit = self.setup.task.time_limit;
+        if !(0..=limit).contains(&run.ticks) || episode.length < 0 {
+            refuse!("{at}.time: expected 0 to {limit} ticks, got {} in {}", run.ticks, episode.length);
+        }
+        let told = [run.path.to_f64(), run.top_speed.to_f64(), episode.distance, episode.start_distance];
+        if let Some(wrong) = told.iter().chain([&episode.total_reward]).find(|x| !x.is_finite()) {
+            refuse!("{at}: expected finite distances, speeds and reward, got {wrong}");
         }
         Ok(())
     }

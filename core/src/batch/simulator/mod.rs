@@ -12,6 +12,7 @@ pub use state::MAX_SPEED;
 
 use super::alone::{MOST_BLOCKS, PLAYERS, together};
 use super::codec::{body_fields, read_body, write_body};
+use super::legal::{check_played, check_shots};
 use super::neighbourhood::{Contact, Neighbourhood, Stand};
 use super::pool::Crew;
 use super::raw_input::RawInput;
@@ -25,7 +26,7 @@ use crate::movement::Movement;
 use crate::player::{Field, packed_bytes};
 use crate::real::{Real, Scalar, Work};
 use crate::rules::Rules;
-use crate::scene::Scene;
+use crate::scene::{Group, Scene};
 use crate::solids::Solids;
 use crate::terrain::Maps;
 use core::marker::PhantomData;
@@ -189,10 +190,19 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
         if body.len() != stride * players.len() {
             refuse!("snapshot: expected {} bytes of players, got {}", stride * players.len(), body.len());
         }
-        for (i, bytes) in players.zip(body.chunks_exact(stride)) {
-            let mut body = self.body(i);
+        // A checksum tells damage, not what a stranger wrote: nobody is put back before all were looked at.
+        let mut read = Vec::with_capacity(players.len());
+        for (i, bytes) in players.clone().zip(body.chunks_exact(stride)) {
+            let (mut body, at) = (self.body(i), format!("snapshot: player {i}"));
             read_body(&mut body, true, bytes);
-            self.blocks[i / R::LANES].set_lane(i % R::LANES, &body);
+            check_played(&body.player, &self.maps, &self.rules, &at)?;
+            if let Some(arms) = body.arms.as_ref() {
+                check_shots(arms, &self.maps, &at)?;
+            }
+            read.push(body);
+        }
+        for (i, body) in players.zip(&read) {
+            self.blocks[i / R::LANES].set_lane(i % R::LANES, body);
         }
         Ok(())
     }

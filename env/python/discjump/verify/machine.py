@@ -18,7 +18,7 @@ def described() -> dict[str, Any]:
         "system": platform.system(),
         "libc": " ".join(platform.libc_ver()),
         "lane_widths": lane_widths(),
-        "lanes": Simulator(ground(), threads=1).lanes,
+        "lanes": Simulator(ground(), 4096, threads=1).lanes,
         "native": build(),
     }
 
