@@ -421,6 +421,14 @@ def test_the_long_form_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
     assert parts.keys() == kept.keys()
     assert {**parts[name], "took_seconds": 0} == {**kept[name], "took_seconds": 0}
 
+    # Another build begins anew.
+    played.clear()
+    monkeypatch.setattr(long, "build", lambda: "another")
+    planned = long.planned
+    monkeypatch.setattr(long, "planned", lambda scale, seed: planned(scale, seed)[:1])
+    run("--long", "--scale", "0.0002", "--out", tmp_path)
+    assert json.loads((tmp_path / "long.json").read_text())["parts"].keys() == {name}
+
 
 def test_ages_stand_still_at_their_end():
     age, wrong = endurance.fall(PLAIN, 3_000_000)

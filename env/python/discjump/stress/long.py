@@ -1,5 +1,6 @@
 """The long form: ten million ticks in every tier, a million episodes. It goes on where it was stopped."""
 
+import hashlib
 import json
 import time
 from collections.abc import Callable
@@ -8,6 +9,7 @@ from typing import Any
 
 import click
 
+from discjump import _native
 from discjump._results import machine, save, versions
 from discjump.simulator import FIDELITIES
 from discjump.stress import endurance, episodes
@@ -27,6 +29,7 @@ def long_form(out: Path, scale: float, seed: int) -> int:
     words += [f"--draws {seed}"] if seed else []
     command = " ".join([*words, f"--out {out}"])
     record: dict[str, Any] = {"command": command, "parts": {}}
+    now = versions("discjump", "numpy")
     if figures.exists():
         try:
             before = json.loads(figures.read_text())
@@ -34,10 +37,11 @@ def long_form(out: Path, scale: float, seed: int) -> int:
             raise click.ClickException(
                 f"{figures}: expected an earlier result to go on with, got {error}"
             ) from None
-        if before.get("command") == command and before["versions"] == versions("discjump", "numpy"):
+        same = ("command", "versions", "build")
+        if all(before.get(key) == value for key, value in zip(same, (command, now, build()), strict=True)):
             record = before
             click.echo(f"{figures}: {len(record['parts'])} parts are done already")
-    record |= {"machine": machine(), "versions": versions("discjump", "numpy")}
+    record |= {"machine": machine(), "versions": now, "build": build()}
     parts = planned(scale, seed)
     with click.progressbar(length=100_000, show_pos=False) as bar:
         total = sum(weight for _, weight, _ in parts)
@@ -62,6 +66,15 @@ def long_form(out: Path, scale: float, seed: int) -> int:
     page.write_text(render(record))
     click.echo(f"\n{page.read_text()}\n{figures}\n{page}")
     return int(any(part["failures"] for part in record["parts"].values()))
+
+
+def build() -> str:
+    """A digest of what plays and asks: the native library and this package's code."""
+    folder = Path(__file__).parent
+    digest = hashlib.blake2b(Path(_native.__file__).read_bytes(), digest_size=8)
+    for path in sorted(folder.glob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def planned(scale: float, seed: int) -> list[Part]:
