@@ -112,6 +112,24 @@ fn who_was_played_is_taken_back() {
         sim.restore(&fallen).unwrap();
         assert_eq!(sim.snapshot(), fallen);
     }
+    // A disc that burst beyond its tile was once refused: a tick may take it there.
+    let map = rolling();
+    let base = setup(&map, "authentic");
+    let made = discjump_core::batch::SimulatorSetup { scene: "disc_jump", players: 40, tick_ms: 400, ..base };
+    let mut shooters = made.build().unwrap();
+    for tick in 0..60 {
+        let keys: Vec<_> = (0..40)
+            .map(|k| RawInput {
+                fire: 1,
+                turn: 0.1 * f64::from(k),
+                pitch: 0.02 * f64::from(k),
+                ..RawInput::default()
+            })
+            .collect();
+        shooters.step(&keys, 1).unwrap();
+        let snapshot = shooters.snapshot();
+        shooters.restore(&snapshot).unwrap_or_else(|error| panic!("tick {tick}: {error}"));
+    }
     let mut many = simulator(64, 2, "authentic");
     many.step(&vec![RawInput { jet: 1, forward: 1, ..RawInput::default() }; 64], 4000).unwrap();
     let snapshot = many.snapshot();

@@ -91,7 +91,7 @@ pub(super) fn check_played<S: Scene, T: Scalar>(
     at: &str,
 ) -> Result<(), InputError> {
     check_player(p, rules, PLAYED, at)?;
-    check_place(maps, p.position, [p.tile_x, p.tile_y], at)?;
+    check_place(maps, p.position, [p.tile_x, p.tile_y], 0.0, at)?;
     let map = p.map;
     if !(0..maps.count()).any(|k| maps.offset(k) == map) {
         refuse!("{at}.map: expected where one of {} maps starts, got {map}", maps.count());
@@ -99,16 +99,19 @@ pub(super) fn check_played<S: Scene, T: Scalar>(
     Ok(())
 }
 
-/// Refuses a place that is none, or that no map reaches.
+/// Refuses a place that is none, or that no map reaches, unless by up to `beyond` metres: a projectile bursts
+/// wherever its last tick took it.
 pub(super) fn check_place<T: Scalar>(
     maps: &Maps,
     local: V3<T>,
     tile: [i32; 2],
+    beyond: f64,
     at: &str,
 ) -> Result<(), InputError> {
     let size = maps.size();
     // A position is put back into its tile after each tick; a hair beyond the rim is its rounding.
-    let most = |side: f64| if maps.grid().edge == Edge::Tile { 0.5 * side * 1.001 } else { FARTHEST };
+    let most =
+        |side: f64| if maps.grid().edge == Edge::Tile { 0.5 * side * 1.001 + beyond } else { FARTHEST };
     let within = |x: T, most: f64| x.finite() && x.to_f64().abs() <= most;
     if !(within(local.x, most(size.x)) && within(local.y, most(size.y)) && local.z.finite()) {
         refuse!("{at}.position: expected finite coordinates on its tile, got {local:?}");
@@ -127,7 +130,7 @@ pub(super) fn check_shots<T: Scalar>(arms: &Arms<T>, maps: &Maps, at: &str) -> R
         if ![FREE, FLYING, BURST].contains(&shot.phase) {
             refuse!("{at}.phase: expected {FREE}, {FLYING} or {BURST}, got {}", shot.phase);
         }
-        check_place(maps, shot.position, [shot.tile_x, shot.tile_y], &at)?;
+        check_place(maps, shot.position, [shot.tile_x, shot.tile_y], FASTEST_SHOT, &at)?;
         let v = shot.velocity;
         if [v.x, v.y, v.z].iter().any(|x| !x.finite() || x.to_f64().abs() > FASTEST_SHOT) {
             refuse!("{at}.velocity: expected finite numbers within +-{FASTEST_SHOT} m/s, got {v:?}");

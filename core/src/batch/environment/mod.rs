@@ -150,7 +150,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let Begun { player, run, episode } = begun;
         let maps = &self.setup.maps;
         check_played(player, maps, &self.rules, at)?;
-        check_place(maps, run.goal, run.goal_tile, &format!("{at}.goal"))?;
+        check_place(maps, run.goal, run.goal_tile, 0.0, &format!("{at}.goal"))?;
         let map = episode.map as usize;
         if map >= maps.count() || maps.offset(map) != player.map {
             refuse!("{at}.terrain: expected 0 to {}, the player's, got {map}", maps.count() - 1);
