@@ -22,6 +22,14 @@ from discjump.sb3 import make_vec_env
 from .play import SHORT, random_actions, same_bits
 
 
+@pytest.fixture(autouse=True)
+def ctrl_c_is_heard():
+    """A process that a shell starts in the background ignores SIGINT, and Python then installs no handler."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupted(call, after: float = 0.3) -> float:
     """Seconds from Ctrl-C to its KeyboardInterrupt in the middle of `call`."""
     sent = []
@@ -166,6 +174,7 @@ def test_python_itself_is_interrupted_as_ever():
     """A script in a loop of short steps."""
     code = (
         "import discjump, numpy as np, os, signal, threading\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "envs = __import__('discjump.sb3').sb3.make_vec_env('discjump/Ski-v0', 64, terrain_seeds=[0])\n"
         "envs.reset()\n"
         "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
