@@ -11,7 +11,7 @@ import sys
 
 import pytest
 
-LIVES = int(os.environ.get("DISCJUMP_LIVES", "500"))
+LIVES = int(os.environ.get("DISCJUMP_LIVES", "1000"))
 NUM_ENVS = 64
 
 CODE = """

@@ -314,7 +314,11 @@ class TestCommand:
     def test_ctrl_c_ends_it_cleanly(self, tmp_path):
         out = tmp_path / "never.json"
         words = ["verify", "--tiers", "fast", "--out", str(out)]
-        code = f"from discjump.cli import main; print('up', flush=True); main({words!r})"
+        # In a process that a shell put into the background nobody hears SIGINT.
+        code = (
+            "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+            f"from discjump.cli import main; print('up', flush=True); main({words!r})"
+        )
         with subprocess.Popen(
             [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         ) as process:

@@ -335,8 +335,8 @@ class Simulator:
 
         >>> import discjump, numpy as np
         >>> sim = discjump.Simulator(discjump.Terrain.from_heights(np.zeros((3, 3))), threads=1)
-        >>> sim.contacts(0, sim.inputs())["normal"]
-        array([[0., 0., 1.]])
+        >>> sim.contacts(0, sim.inputs())["normal"][:, 2]
+        array([1.])
         """
         index = _check.integer("player", player, 0, self.num_players - 1)
         row = np.atleast_1d(np.asarray(keys))
