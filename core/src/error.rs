@@ -21,3 +21,11 @@ macro_rules! refuse {
     };
 }
 pub(crate) use refuse;
+
+impl InputError {
+    /// The same of what it is a field of: `velocity: ...` becomes `state[3].velocity: ...`.
+    #[must_use]
+    pub(crate) fn of(self, what: impl core::fmt::Display) -> Self {
+        Self(format!("{what}.{self}"))
+    }
+}

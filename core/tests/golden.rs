@@ -11,13 +11,14 @@
 //! `DISCJUMP_GOLDEN=print` prints the lines of the file instead of comparing them.
 #![allow(missing_docs)]
 
+mod common;
+
+use common::envs::{self, Envs};
+use common::setup;
 use core::fmt::Write;
-use discjump_core::batch::{
-    Autoreset, RawInput, ResetRequest, Rewards, SimulatorSetup, SkiEnvironments, StepOutput,
-};
+use discjump_core::batch::{Autoreset, RawInput, ResetRequest, SimulatorSetup, SkiEnvironments};
 use discjump_core::observe::SkiObservation;
-use discjump_core::rules::Physics;
-use discjump_core::task::{ActionKind, Actions, Reward, SkiTask};
+use discjump_core::task::SkiTask;
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::raindance::{Options, generate};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
@@ -45,78 +46,40 @@ fn keys(env: usize, decision: usize) -> [i8; 5] {
 
 /// Digest of all environments at the end, and of all that they returned.
 fn ski(field: &Heightfield, area: Area, fidelity: &str, lanes: Option<usize>) -> (String, String) {
-    let mut batch = SkiEnvironments {
+    let base = envs::ski(COUNT, fidelity);
+    let mut envs = Envs::new(SkiEnvironments {
         maps: Maps::new(core::slice::from_ref(field)).unwrap().into(),
         areas: vec![area],
-        count: COUNT,
-        fidelity: fidelity.into(),
-        armor: "light".into(),
-        energy_pack: false,
-        physics: Physics::default(),
-        tick_ms: 32,
         task: SkiTask {
-            frame_skip: 4,
             time_limit: 1875,
-            arrival_radius: 8.0,
             goal_distance: (300.0, 800.0),
             start_speed: 10.0,
             turn_rate: 2.34375,
-            reward: Reward::default(),
+            ..base.task
         },
-        actions: ActionKind::MultiDiscrete,
         observation: SkiObservation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true).unwrap(),
         autoreset: Autoreset::NextStep,
-        threads: Some(1),
         lanes,
-    }
-    .build()
-    .unwrap();
-    let mut observations = vec![0.0_f32; COUNT * batch.observation_size()];
-    let mut rewards = vec![0.0_f64; COUNT];
-    let (mut terminated, mut truncated) = (vec![false; COUNT], vec![false; COUNT]);
-    let request = ResetRequest { seeds: (0..COUNT as u64).collect(), ..ResetRequest::default() };
-    batch.reset(&request, &mut observations).unwrap();
+        ..base
+    });
+    envs.reset(&ResetRequest { seeds: (0..COUNT as u64).collect(), ..ResetRequest::default() });
     let (mut hash, mut ended) = (Xxh3::new(), 0);
     for decision in 0..DECISIONS {
         let actions: Vec<i8> = (0..COUNT).flat_map(|env| keys(env, decision)).collect();
-        let output = StepOutput {
-            observations: &mut observations,
-            rewards: Rewards::F64(&mut rewards),
-            terminated: &mut terminated,
-            truncated: &mut truncated,
-            status: None,
-        };
-        batch.step(Actions::Int8(&actions), output).unwrap();
-        observations.iter().for_each(|x| hash.update(&x.to_bits().to_le_bytes()));
-        rewards.iter().for_each(|x| hash.update(&x.to_bits().to_le_bytes()));
-        terminated.iter().chain(&truncated).for_each(|&flag| hash.update(&[u8::from(flag)]));
-        ended += truncated.iter().filter(|&&flag| flag).count();
+        envs.step(&actions);
+        envs.observations.iter().for_each(|x| hash.update(&x.to_bits().to_le_bytes()));
+        envs.rewards.iter().for_each(|x| hash.update(&x.to_bits().to_le_bytes()));
+        envs.terminated.iter().chain(&envs.truncated).for_each(|&flag| hash.update(&[u8::from(flag)]));
+        ended += envs.truncated.iter().filter(|&&flag| flag).count();
     }
     assert!(ended > 24, "{fidelity}: {ended} episodes ended by the clock");
-    (batch.digest(), format!("{:032x}", hash.digest128()))
+    (envs.batch.digest(), format!("{:032x}", hash.digest128()))
 }
 
 /// Digest of players who ski, jet and fire from the middle of the map.
 fn discs(field: &Heightfield, fidelity: &str, lanes: Option<usize>) -> String {
-    let mut sim = SimulatorSetup {
-        terrain: field,
-        solids: None,
-        players: COUNT,
-        players_per_world: 1,
-        scene: "disc_jump",
-        armor: "light",
-        energy_pack: false,
-        weapon: "disc",
-        ammo: None,
-        fidelity,
-        precision: None,
-        physics: Physics::default(),
-        tick_ms: 32,
-        threads: Some(1),
-        lanes,
-    }
-    .build()
-    .unwrap();
+    let base = setup(field, fidelity);
+    let mut sim = SimulatorSetup { players: COUNT, scene: "disc_jump", lanes, ..base }.build().unwrap();
     for decision in 0..DECISIONS / 4 {
         let pressed = |player| {
             let [forward, strafe, jump, jet, turn] = keys(player, decision);

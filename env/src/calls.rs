@@ -1,7 +1,7 @@
 //! Calls into the simulator: one at a time on one object, away from the interpreter's lock where they may be
 //! long, answering Ctrl-C, and never a panic into Python.
 
-use crate::errors::refused;
+use crate::errors::{refused, unusable};
 use discjump_core::error::InputError;
 use pyo3::PyClass;
 use pyo3::exceptions::PyRuntimeError;
@@ -37,6 +37,35 @@ fn busy() -> PyErr {
          middle of another on the same object (or was when this process was forked): give each an object of its \
          own",
     )
+}
+
+/// What can be stepped, and may have been left half-way.
+pub trait Stepped: PyClass<Frozen = False> {
+    /// Whether no step ended half-way.
+    ///
+    /// # Errors
+    /// If one did.
+    fn whole(&self) -> Result<(), InputError>;
+}
+
+/// The object, for a call that reads what was played.
+///
+/// # Errors
+/// As [`exclusive`]; and RuntimeError: a step ended half-way.
+pub fn reading<'py, T: Stepped>(object: &Bound<'py, T>) -> PyResult<PyRef<'py, T>> {
+    let this = shared(object)?;
+    this.whole().map_err(unusable)?;
+    Ok(this)
+}
+
+/// The object, for a call that goes on from what was played.
+///
+/// # Errors
+/// As [`reading`].
+pub fn changing<'py, T: Stepped>(object: &Bound<'py, T>) -> PyResult<PyRefMut<'py, T>> {
+    let this = exclusive(object)?;
+    this.whole().map_err(unusable)?;
+    Ok(this)
 }
 
 /// A short call, with the interpreter's lock held.

@@ -1,11 +1,12 @@
 //! `Simulator`: bodies without a task. The package wraps it; here arrays are bytes.
 
 use crate::arrays::{dtype, rows, structured};
-use crate::calls::{away, exclusive, here, shared};
-use crate::errors::{refused, unusable};
+use crate::calls::{Stepped, away, changing, exclusive, here, reading, shared};
+use crate::errors::refused;
 use crate::physics::PhysicsArgument;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Bodies, RawInput, Shot, SimulatorSetup};
+use discjump_core::error::InputError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::time::{Duration, Instant};
@@ -24,14 +25,13 @@ pub struct Simulator {
     pub(crate) bodies: Box<dyn Bodies>,
 }
 
-impl Simulator {
-    /// The simulator, for reading, unless a step ended half-way.
-    fn whole<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRef<'py, Self>> {
-        let this = shared(slf)?;
-        this.bodies.whole().map_err(unusable)?;
-        Ok(this)
+impl Stepped for Simulator {
+    fn whole(&self) -> Result<(), InputError> {
+        self.bodies.whole()
     }
+}
 
+impl Simulator {
     fn fields(&self) -> Vec<(&'static str, &'static str, usize)> {
         state_fields(&self.bodies.state_fields())
     }
@@ -123,20 +123,18 @@ impl Simulator {
 
     /// A copy of all states: structured, shape (num_players,).
     fn state<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         structured(slf.py(), &this.fields(), &this.bodies.state())
     }
 
     /// Overwrites states, given as packed bytes of `state_dtype`.
     fn set_state(slf: &Bound<'_, Self>, indices: Vec<usize>, states: &[u8]) -> PyResult<()> {
-        Self::whole(slf)?;
-        exclusive(slf)?.bodies.set_state(&indices, states).map_err(refused)
+        changing(slf)?.bodies.set_state(&indices, states).map_err(refused)
     }
 
     /// Plays `ticks` ticks of inputs given as bytes of `discjump.INPUT`.
     fn step(slf: &Bound<'_, Self>, inputs: &[u8], ticks: u32) -> PyResult<()> {
-        Self::whole(slf)?;
-        let (py, mut this) = (slf.py(), exclusive(slf)?);
+        let (py, mut this) = (slf.py(), changing(slf)?);
         let bodies = &mut this.bodies;
         let mut keys: Vec<RawInput> = Vec::with_capacity(bodies.len());
         for some in inputs.chunks(INPUT_BYTES << 18) {
@@ -164,26 +162,27 @@ impl Simulator {
 
     /// One explosion per player at points (num_players, 3), m; NaN: none.
     fn explode(slf: &Bound<'_, Self>, points: &Bound<'_, PyAny>, weapon: &str) -> PyResult<()> {
-        Self::whole(slf)?;
+        // Before the points, whose own code may ask for the simulator.
+        reading(slf)?;
         let (points, _) = rows(slf.py(), "points", points, &[3])?;
         let points: Vec<[f64; 3]> = points.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-        let mut this = exclusive(slf)?;
+        let mut this = changing(slf)?;
         here(|| this.bodies.explode(&points, weapon))
     }
 
     /// The projectiles that burst in the last tick: structured.
     fn blasts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        shots(slf.py(), &Self::whole(slf)?.bodies.blasts(), "normal")
+        shots(slf.py(), &reading(slf)?.bodies.blasts(), "normal")
     }
 
     /// The projectiles under way: structured.
     fn projectiles<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        shots(slf.py(), &Self::whole(slf)?.bodies.projectiles(), "aim")
+        shots(slf.py(), &reading(slf)?.bodies.projectiles(), "aim")
     }
 
     /// The contacts of a player's next tick with an input, given as bytes of `discjump.INPUT`: structured.
     fn contacts<'py>(slf: &Bound<'py, Self>, player: usize, input: &[u8]) -> PyResult<Bound<'py, PyAny>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         let mut bytes = Vec::new();
         for contact in here(|| this.bodies.contacts(player, &read_input(input)))? {
             let numbers = [contact.position, contact.velocity, contact.normal];
@@ -196,7 +195,7 @@ impl Simulator {
     /// Everything, or everything of one player, as bytes that `restore` takes.
     #[pyo3(signature = (player=None))]
     fn snapshot<'py>(slf: &Bound<'py, Self>, player: Option<usize>) -> PyResult<Bound<'py, PyBytes>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         let bytes = match player {
             Some(player) => this.bodies.snapshot_one(player).map_err(refused)?,
             None => this.bodies.snapshot(),
@@ -216,7 +215,7 @@ impl Simulator {
 
     /// 32 hexadecimal digits that name the players' exact bits.
     fn digest(slf: &Bound<'_, Self>) -> PyResult<String> {
-        Ok(Self::whole(slf)?.bodies.digest())
+        Ok(reading(slf)?.bodies.digest())
     }
 
     /// Makes the next step fail half-way, as a defect would: for tests of what comes after.

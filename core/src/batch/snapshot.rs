@@ -21,8 +21,14 @@ pub(super) fn seal(layout: &str, count: usize, body: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The body of a snapshot, after checking that it is whole and of this layout and count.
-pub(super) fn open<'a>(layout: &str, count: usize, bytes: &'a [u8]) -> Result<&'a [u8], InputError> {
+/// The body of a snapshot, `stride` bytes for each player, after checking that it is whole and of this layout
+/// and count.
+pub(super) fn open<'a>(
+    layout: &str,
+    count: usize,
+    stride: usize,
+    bytes: &'a [u8],
+) -> Result<&'a [u8], InputError> {
     if bytes.len() < HEADER + CHECKSUM || &bytes[..8] != MAGIC {
         refuse!(
             "snapshot: expected one made by snapshot(), got {} bytes that do not begin as one",
@@ -44,5 +50,9 @@ pub(super) fn open<'a>(layout: &str, count: usize, bytes: &'a [u8]) -> Result<&'
     if n != count as u64 {
         refuse!("snapshot: expected {count} players, got {n}");
     }
-    Ok(&content[HEADER..])
+    let body = &content[HEADER..];
+    if body.len() != stride * count {
+        refuse!("snapshot: expected {} bytes of players, got {}", stride * count, body.len());
+    }
+    Ok(body)
 }

@@ -7,13 +7,14 @@
 //! * `life`: whether a step may be taken
 
 use crate::arrays::{array1, structured};
-use crate::calls::{exclusive, here, shared};
-use crate::errors::{refused, unusable};
+use crate::calls::{Stepped, changing, exclusive, here, reading, shared};
+use crate::errors::refused;
 use crate::physics::PhysicsArgument;
 use crate::pools::pool;
 use crate::simulator::state_fields;
 use crate::terrain::Terrain;
 use discjump_core::batch::{Autoreset, Environments, SkiEnvironments};
+use discjump_core::error::InputError;
 use discjump_core::observe::{CLIP, SkiObservation};
 use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Reward, SkiTask};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
@@ -210,7 +211,7 @@ impl SkiBatch {
         goal: Option<Bound<'py, PyAny>>,
         terrain: Option<PyReadonlyArray1<'py, i64>>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let (py, mut this) = (slf.py(), Self::mine(slf)?);
+        let (py, mut this) = (slf.py(), changing(slf)?);
         let courses = request::courses(py, this.batch.len(), this.terrains, start, goal, terrain)?;
         this.begin(py, seeds, mask, courses)
     }
@@ -218,18 +219,18 @@ impl SkiBatch {
     /// One decision of every environment: (observations, rewards, terminated, truncated, info), info in
     /// columns with gymnasium's `_key` masks.
     fn step<'py>(slf: &Bound<'py, Self>, actions: &Bound<'py, PyAny>) -> PyResult<Step<'py>> {
-        Self::mine(slf)?.step_columns(slf.py(), actions)
+        changing(slf)?.step_columns(slf.py(), actions)
     }
 
     /// The same as (observations, rewards as float32, dones, whether an episode ended).
     fn step_dones<'py>(slf: &Bound<'py, Self>, actions: &Bound<'py, PyAny>) -> PyResult<FlatStep<'py>> {
-        Self::mine(slf)?.step_flat(slf.py(), actions)
+        changing(slf)?.step_flat(slf.py(), actions)
     }
 
     /// One decision of a batch of one: (observation, reward, terminated, truncated, info) without the
     /// dimension of the batch.
     fn step_one<'py>(slf: &Bound<'py, Self>, action: &Bound<'py, PyAny>) -> PyResult<SingleStep<'py>> {
-        Self::mine(slf)?.step_single(slf.py(), action)
+        changing(slf)?.step_single(slf.py(), action)
     }
 
     /// Columns of info, with masks, of the environments in a mask as they are now; of all where None.
@@ -238,7 +239,7 @@ impl SkiBatch {
         slf: &Bound<'py, Self>,
         mask: Option<PyReadonlyArray1<'py, bool>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let mut this = Self::mine(slf)?;
+        let mut this = changing(slf)?;
         let this = &mut *this;
         let mask = mask.as_ref().map(|mask| request::entries("mask", mask, this.batch.len())).transpose()?;
         this.outputs.infos.columns(slf.py(), this.batch.as_ref(), mask.as_deref())
@@ -246,31 +247,31 @@ impl SkiBatch {
 
     /// The info of every environment as it is now.
     fn infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         this.batch.status().iter().map(|status| this.outputs.infos.row(slf.py(), status)).collect()
     }
 
     /// Indices of the environments whose episode ended in the last step, ascending, int64.
     fn finished<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let finished = Self::whole(slf)?.batch.finished().iter().map(|&(i, _)| i as i64).collect();
+        let finished = reading(slf)?.batch.finished().iter().map(|&(i, _)| i as i64).collect();
         Ok(array1(slf.py(), finished))
     }
 
     /// Their last observations, float32 (len(finished), observation_size).
     fn final_observations<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        Self::whole(slf)?.final_rows(slf.py())
+        reading(slf)?.final_rows(slf.py())
     }
 
     /// Their last infos.
     fn final_infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         let ends = this.batch.finished().iter();
         ends.map(|(_, outcome)| this.outputs.infos.last_row(slf.py(), outcome)).collect()
     }
 
     /// The infos of their next episodes' beginnings, where those began in the same step.
     fn begun_infos<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         let envs = this.batch.finished().iter().map(|&(env, _)| env);
         envs.map(|env| this.outputs.infos.row(slf.py(), &this.batch.status_of(env))).collect()
     }
@@ -283,32 +284,32 @@ impl SkiBatch {
     /// What names each episode: its environment's seed, and its number from 0 on since that seed was given;
     /// both uint64 (num_envs,).
     fn episodes<'py>(slf: &Bound<'py, Self>) -> PyResult<Names<'py>> {
-        let (seeds, numbers) = Self::whole(slf)?.batch.episodes().into_iter().unzip();
+        let (seeds, numbers) = reading(slf)?.batch.episodes().into_iter().unzip();
         Ok((array1(slf.py(), seeds), array1(slf.py(), numbers)))
     }
 
     /// Which terrain each episode runs on, int64 (num_envs,).
     fn terrain_index<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let indices = Self::whole(slf)?.batch.status().iter().map(|status| status.terrain as i64).collect();
+        let indices = reading(slf)?.batch.status().iter().map(|status| status.terrain as i64).collect();
         Ok(array1(slf.py(), indices))
     }
 
     /// All players' states, as `Simulator.state()`.
     fn state<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         structured(slf.py(), &state_fields(&this.batch.state_fields()), &this.batch.state())
     }
 
     /// World positions of the beacons, float64 (num_envs, 3), m; z is the ground's height.
     fn goals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let goals = Self::whole(slf)?.batch.goals();
+        let goals = reading(slf)?.batch.goals();
         array1(slf.py(), goals.concat()).reshape([goals.len(), 3])
     }
 
     /// Everything, or everything of one environment, as bytes that `restore` takes.
     #[pyo3(signature = (index=None))]
     fn snapshot<'py>(slf: &Bound<'py, Self>, index: Option<usize>) -> PyResult<Bound<'py, PyBytes>> {
-        let this = Self::whole(slf)?;
+        let this = reading(slf)?;
         let bytes = match index {
             Some(index) => this.batch.snapshot_one(index).map_err(refused)?,
             None => this.batch.snapshot(),
@@ -333,7 +334,7 @@ impl SkiBatch {
 
     /// 32 hexadecimal digits that name the environments' exact bits.
     fn digest(slf: &Bound<'_, Self>) -> PyResult<String> {
-        Ok(Self::whole(slf)?.batch.digest())
+        Ok(reading(slf)?.batch.digest())
     }
 
     /// Makes the next step fail half-way, as a defect would: for tests of what comes after.
@@ -343,21 +344,13 @@ impl SkiBatch {
     }
 }
 
+impl Stepped for SkiBatch {
+    fn whole(&self) -> Result<(), InputError> {
+        self.batch.whole()
+    }
+}
+
 impl SkiBatch {
-    /// The batch, for reading, unless a step ended half-way.
-    fn whole<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRef<'py, Self>> {
-        let this = shared(slf)?;
-        this.batch.whole().map_err(unusable)?;
-        Ok(this)
-    }
-
-    /// The batch, for changing, unless a step ended half-way.
-    fn mine<'py>(slf: &Bound<'py, Self>) -> PyResult<PyRefMut<'py, Self>> {
-        let this = exclusive(slf)?;
-        this.batch.whole().map_err(unusable)?;
-        Ok(this)
-    }
-
     fn final_rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let rows = self.batch.finished().len();
         array1(py, self.batch.final_observations().to_vec()).reshape([rows, self.batch.observation_size()])

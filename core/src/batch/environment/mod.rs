@@ -123,11 +123,8 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     fn open(&mut self, envs: Range<usize>, bytes: &[u8]) -> Result<(), InputError> {
-        let body = snapshot::open(&self.layout, envs.len(), bytes)?;
-        let stride = self.body_stride();
-        if body.len() != stride * envs.len() {
-            refuse!("snapshot: expected {} bytes, got {}", stride * envs.len(), body.len());
-        }
+        let stride = packed_bytes(&fields::<S, R::Scalar>(true)) + episode::BYTES;
+        let body = snapshot::open(&self.layout, envs.len(), stride, bytes)?;
         // A checksum tells damage, not what a stranger wrote: nobody is put back before all were looked at.
         let mut read = Vec::with_capacity(envs.len());
         for (i, bytes) in envs.clone().zip(body.chunks_exact(stride)) {
@@ -136,7 +133,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             read_player(&mut player, true, head);
             let (run, episode) = episode::read(tail);
             let begun = Begun { player, run, episode };
-            self.check_begun(&begun, &format!("snapshot: environment {i}"))?;
+            self.check_begun(&begun).map_err(|e| e.of(format_args!("snapshot: environment {i}")))?;
             read.push(begun);
         }
         for (i, begun) in envs.zip(&read) {
@@ -146,22 +143,22 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     }
 
     /// Refuses an episode of a snapshot that cannot have been played.
-    fn check_begun(&self, begun: &Begun<S, R::Scalar>, at: &str) -> Result<(), InputError> {
+    fn check_begun(&self, begun: &Begun<S, R::Scalar>) -> Result<(), InputError> {
         let Begun { player, run, episode } = begun;
         let maps = &self.setup.maps;
-        check_played(player, maps, &self.rules, at)?;
-        check_place(maps, run.goal, run.goal_tile, 0.0, &format!("{at}.goal"))?;
+        check_played(player, maps, &self.rules)?;
+        check_place(maps, run.goal, run.goal_tile, 0.0).map_err(|e| e.of("goal"))?;
         let map = episode.map as usize;
         if map >= maps.count() || maps.offset(map) != player.map {
-            refuse!("{at}.terrain: expected 0 to {}, the player's, got {map}", maps.count() - 1);
+            refuse!("terrain: expected 0 to {}, the player's, got {map}", maps.count() - 1);
         }
         let limit = self.setup.task.time_limit;
         if !(0..=limit).contains(&run.ticks) || episode.length < 0 {
-            refuse!("{at}.time: expected 0 to {limit} ticks, got {} in {}", run.ticks, episode.length);
+            refuse!("time: expected 0 to {limit} ticks, got {} in {}", run.ticks, episode.length);
         }
         let told = [run.path.to_f64(), run.top_speed.to_f64(), episode.distance, episode.start_distance];
         if let Some(wrong) = told.iter().chain([&episode.total_reward]).find(|x| !x.is_finite()) {
-            refuse!("{at}: expected finite distances, speeds and reward, got {wrong}");
+            refuse!("figures: expected finite distances, speeds and reward, got {wrong}");
         }
         Ok(())
     }
@@ -189,10 +186,6 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         self.ready = self.ready || phases.take(self.setup.count).all(|&phase| phase != Phase::Unseeded);
         self.finished.clear();
         self.final_observations.clear();
-    }
-
-    fn body_stride(&self) -> usize {
-        packed_bytes(&fields::<S, R::Scalar>(true)) + episode::BYTES
     }
 }
 
@@ -318,8 +311,8 @@ impl<S: Scene, M: Movement, R: Real> Environments for Batch<S, M, R> {
 
     fn status_of(&self, index: usize) -> Status {
         assert!(index < self.setup.count, "no environment {index}");
-        let (block, lane) = (&self.blocks[index / R::LANES], index % R::LANES);
-        self.describe(&block.player.lane(lane), &block.run.lane(lane), &self.episode(index))
+        let (player, run, episode) = self.one(index);
+        self.describe(&player, &run, &episode)
     }
 
     fn episodes(&self) -> Vec<(u64, u64)> {

@@ -185,19 +185,17 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     }
 
     fn open(&mut self, players: Range<usize>, bytes: &[u8]) -> Result<(), InputError> {
-        let body = snapshot::open(&self.layout, players.len(), bytes)?;
         let stride = packed_bytes(&body_fields::<S, R::Scalar>(true));
-        if body.len() != stride * players.len() {
-            refuse!("snapshot: expected {} bytes of players, got {}", stride * players.len(), body.len());
-        }
+        let body = snapshot::open(&self.layout, players.len(), stride, bytes)?;
         // A checksum tells damage, not what a stranger wrote: nobody is put back before all were looked at.
         let mut read = Vec::with_capacity(players.len());
         for (i, bytes) in players.clone().zip(body.chunks_exact(stride)) {
-            let (mut body, at) = (self.body(i), format!("snapshot: player {i}"));
+            let mut body = self.body(i);
             read_body(&mut body, true, bytes);
-            check_played(&body.player, &self.maps, &self.rules, &at)?;
+            let named = |e: InputError| e.of(format_args!("snapshot: player {i}"));
+            check_played(&body.player, &self.maps, &self.rules).map_err(named)?;
             if let Some(arms) = body.arms.as_ref() {
-                check_shots(arms, &self.maps, &at)?;
+                check_shots(arms, &self.maps).map_err(named)?;
             }
             read.push(body);
         }

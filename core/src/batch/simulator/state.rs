@@ -43,17 +43,16 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
             let p = &mut body.player;
             let number = |k: usize| f64::from_le_bytes(bytes[8 * k..8 * k + 8].try_into().expect("8 bytes"));
             let world = DVec3::new(number(0), number(1), number(2));
-            let (place, tile) =
-                self.maps.to_local(world).map_err(|e| InputError(format!("state[{row}].{e}")))?;
+            let (place, tile) = self.maps.to_local(world).map_err(|e| e.of(format_args!("state[{row}]")))?;
             let t = <R::Scalar as Scalar>::from_f64;
             p.position = V3::new(t(place.x), t(place.y), t(place.z));
             (p.tile_x, p.tile_y) = (tile.x, tile.y);
             read_body(&mut body, false, &bytes[24..]);
-            let at = format!("state[{row}]");
-            check_player(&body.player, &self.rules, ACCEPTED, &at)?;
+            let named = |e: InputError| e.of(format_args!("state[{row}]"));
+            check_player(&body.player, &self.rules, ACCEPTED).map_err(named)?;
             body.player.yaw = crate::tick::wrap_angle(body.player.yaw);
             if let Some(arms) = body.arms.as_ref() {
-                check_launcher(arms, &at)?;
+                check_launcher(arms).map_err(named)?;
             }
             decoded.push(body);
         }
