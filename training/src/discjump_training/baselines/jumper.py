@@ -1,10 +1,10 @@
 """The scripted disc jumper: it knows that a disc lifts most some four ticks after the jump.
 
 On the ground it waits until the tank is full, jumps, looks straight down and shoots in the
-decision after the jump (with two ticks a decision the disc bursts below its feet in the fourth or fifth tick), and
-burns its jets from the jump on. It walks below the marker first: in the air it presses a direction only where its drift
-would carry it past. Where it comes down again without success and discs are left, it does the
-same once more.
+decision after the jump (with two ticks a decision the disc bursts below its feet in the fourth or fifth
+tick), and burns its jets from the jump on. It walks below the marker first: in the air it presses a direction
+only where its drift would carry it past. Where it comes down again without success and discs are left, it
+does the same once more.
 """
 
 from dataclasses import dataclass, field
@@ -88,8 +88,8 @@ class Jumper:
         self._since = np.where(jump, 0.0, np.where(grounded, np.inf, self._since + 1.0))
         flying = np.isfinite(self._since)
         fire = self._since == np.rint(p.wait)
-        # Where its drift will not carry it by itself. Pressing a direction takes four fifths of the lift away.
-        way = near - np.where(flying, p.lead, 0.0)[:, None] * velocity
+        # Where its drift will not carry it by itself. Pressing a direction takes four fifths of the lift
+        away. way = near - np.where(flying, p.lead, 0.0)[:, None] * velocity
         press_on = np.where(
             flying,
             (np.hypot(way[:, 0], way[:, 1]) > p.near) & (self._since > p.climb),

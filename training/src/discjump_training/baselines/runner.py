@@ -1,10 +1,10 @@
 """The scripted route runner: a skier with waypoints.
 
-From base to base it skies like the scripted skier, towards a waypoint on the line through the two flags, some way
-before the stand it seeks: bases open along that line. From there it heads for the stand, and close to it it no
-longer jumps or jets, so that it runs in under the roof. With the flag it does the same the other way round. Where
-it has come no nearer for a second, it walks back a bit and then goes aside: out from under the bridge, past a
-pier or a wall.
+From base to base it skies like the scripted skier, towards a waypoint on the line through the two flags, some
+way before the stand it seeks: bases open along that line. From there it heads for the stand, and close to it
+it no longer jumps or jets, so that it runs in under the roof. With the flag it does the same the other way
+round. Where it has come no nearer for a second, it walks back a bit and then goes aside: out from under the
+bridge, past a pier or a wall.
 """
 
 from dataclasses import dataclass
