@@ -14,12 +14,12 @@
     objectives  what is wanted, by task
     settings    how hard and how far
 
-Arrows point down only: command, sweep -> report, play -> store, team, search -> planned, rollouts, proposals ->
-guides, objectives -> settings.
+Arrows point down only: command, sweep -> report, play -> store, team, search -> planned, rollouts,
+proposals -> guides, objectives -> settings.
 
-The model is exact: candidates begin at copies of the real states and are simulated with the same bits. What is
-predicted within the horizon happens. A plan is a function of the settings, the course's episode and the files
-of the models alone: neither threads, nor the episodes beside it, nor an interruption change a bit.
+The model is exact: candidates begin at copies of the real states and are simulated with the same bits. What
+is predicted within the horizon happens. A plan is a function of the settings, the course's episode and the
+files of the models alone: neither threads, nor the episodes beside it, nor an interruption change a bit.
 """
 
 from discjump_training.planner.planned import Cost, Outcome, Pairs, Planned

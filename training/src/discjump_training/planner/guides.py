@@ -64,7 +64,8 @@ class Networks:
         with torch.inference_mode():
             seen = torch.from_numpy(np.array(observations))
             values = [policy.predict_values(seen).numpy()[:, 0] for policy in self._policies]
-        return np.mean(np.stack(values).astype(np.float64), axis=0)
+        mean: Floats = np.mean(np.stack(values).astype(np.float64), axis=0)
+        return mean
 
     @staticmethod
     def _likeliest(policy: Any, observations: torch.Tensor) -> NDArray[np.int8]:

@@ -67,7 +67,9 @@ class Seconds:
         to_go: seconds from a state to success, a guess.
     """
 
-    def __init__(self, layout: Layout, time_limit: float, to_go: Callable[[Layout, Observations], Floats]) -> None:
+    def __init__(
+        self, layout: Layout, time_limit: float, to_go: Callable[[Layout, Observations], Floats]
+    ) -> None:
         self._layout = layout
         self._limit = time_limit
         self._to_go = to_go
@@ -113,7 +115,9 @@ def to_beacon(layout: Layout, observations: Observations) -> Floats:
     # Far away all of it can be used; the nearer, the less.
     use = 1.0 - np.exp(-distance / 60.0)
     speed = 31.0
-    return np.maximum(distance / speed - use * (0.1 * closing + 0.02 * above + 0.015 * energy), distance / 70.0)
+    return np.maximum(
+        distance / speed - use * (0.1 * closing + 0.02 * above + 0.015 * energy), distance / 70.0
+    )
 
 
 OBJECTIVES: dict[str, Callable[[Layout, Any], Any]] = {

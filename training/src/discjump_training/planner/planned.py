@@ -156,10 +156,14 @@ class Planned:
             observations, _, terminated, truncated, info = env.step(action)
             ended = terminated | truncated
             for slot, one in enumerate(self.outcomes):
-                if time < one.decisions and ended[slot] != (time == one.decisions - 1):
+                last = time == one.decisions - 1
+                planned_time = (self.replays[one.episode].outcome or {}).get("time")
+                if time < one.decisions and (
+                    ended[slot] != last or (last and info["time"][slot] != planned_time)
+                ):
                     raise TrainingError(
-                        f"pairs: episode {one.episode} took {one.decisions} decisions when it was planned, and "
-                        f"another number with the options {options}: they change more than the observation"
+                        f"pairs: episode {one.episode} does not end as it was planned with the options "
+                        f"{options}: expected some that change the observation alone"
                     )
         period = env.unwrapped.options.decision_seconds
         env.close()

@@ -40,7 +40,12 @@ class Rollouts:
         self._at: bytes | None = None
 
     def place(self, snapshots: list[bytes], observations: Observations) -> None:
-        """Put the candidates of each episode to where its snapshot is, with that observation, (episodes, size)."""
+        """Put the candidates of each episode to where its snapshot is.
+
+        Args:
+            snapshots: of the episodes.
+            observations: there, (episodes, size).
+        """
         # The least power of two holds them: a group of which few episodes are left is not simulated in full.
         slots = 1 << (len(snapshots) - 1).bit_length()
         self._batch = self._batches.get(slots) or self._made(slots)
@@ -54,11 +59,11 @@ class Rollouts:
         self._first = np.repeat(observations, self._candidates, axis=0)
         self._moved = False
 
-    def run(self, drafts: list[Draft]) -> tuple[Floats, int]:
+    def run(self, drafts: list[Draft]) -> tuple[Floats, NDArray[np.int64]]:
         """Simulate the sequences of each episode; what the guide decides is filled in.
 
         Returns:
-            Scores (episodes, candidates), and the number of simulated decisions of each candidate.
+            Scores (episodes, candidates), and simulated decisions (episodes,) until the ends of episodes.
         """
         assert self._at is not None, "place() comes first"
         if self._moved:
@@ -69,12 +74,14 @@ class Rollouts:
         for slot, draft in enumerate(drafts):
             actions[slot * per : (slot + 1) * per] = draft.actions
         running = np.ones(count, np.bool_)
+        simulated = np.zeros(self._episodes, np.int64)
         seen = self._first
         self._objective.begin(count)
         if self._guide is not None:
             self._guide.begin(self._episodes)
         for time in range(actions.shape[1]):
             self._complete(drafts, actions, seen, time)
+            simulated += np.count_nonzero(running.reshape(self._episodes, per), axis=1)
             observations, rewards, terminated, truncated, info = self._batch.step(
                 np.ascontiguousarray(actions[:, time], dtype=np.int64)
             )
@@ -86,9 +93,11 @@ class Rollouts:
                 break
         for slot, draft in enumerate(drafts):
             draft.actions = actions[slot * per : (slot + 1) * per]
-        return self._objective.scores(seen, running, per).reshape(self._episodes, per), time + 1
+        return self._objective.scores(seen, running, per).reshape(self._episodes, per), simulated
 
-    def _complete(self, drafts: list[Draft], actions: NDArray[np.int8], seen: Observations, time: int) -> None:
+    def _complete(
+        self, drafts: list[Draft], actions: NDArray[np.int8], seen: Observations, time: int
+    ) -> None:
         if self._guide is None:
             return
         for slot, draft in enumerate(drafts):

@@ -30,7 +30,7 @@ class Memory:
     """score of the best sequence of the last plan"""
 
     def advance(self, played: int) -> None:
-        """That many decisions of the plan were played: shift the sequences; their last actions are repeated."""
+        """That many decisions of the plan were played: shift the sequences, repeat their last actions."""
         self.decision += played
         if self.elites is not None:
             left = self.elites.actions[:, played:]
@@ -86,10 +86,10 @@ class Search:
                 self._draft(rng, memory, iteration == 0)
                 for rng, memory in zip(generators, memories, strict=True)
             ]
-            scores, decisions = self._rollouts.run(drafts)
-            for memory, draft, row in zip(memories, drafts, scores, strict=True):
+            scores, simulated = self._rollouts.run(drafts)
+            for memory, draft, row, count in zip(memories, drafts, scores, simulated, strict=True):
                 memory.elites = self._best(memory.elites if iteration else None, draft, row)
-                memory.simulated += decisions * s.candidates
+                memory.simulated += int(count)
         for memory in memories:
             assert memory.elites is not None
             memory.predicted = float(memory.elites.scores[0])

@@ -69,9 +69,15 @@ class Settings:
             value = getattr(self, name)
             number = isinstance(value, (int, float)) and not isinstance(value, bool)
             # A share may be nothing, a duration or a temperature may not.
-            if not number or not (least <= value if name in ("guided", "explore") else least < value) or value > most:
+            if (
+                not number
+                or not (least <= value if name in ("guided", "explore") else least < value)
+                or value > most
+            ):
                 bracket = "[" if name in ("guided", "explore") else "("
-                raise TrainingError(f"{name}: expected a number in {bracket}{least:g}, {most:g}]{unit}, got {value!r}")
+                raise TrainingError(
+                    f"{name}: expected a number in {bracket}{least:g}, {most:g}]{unit}, got {value!r}"
+                )
         if self.proposal not in PROPOSALS:
             raise TrainingError(f"proposal: expected one of {', '.join(PROPOSALS)}, got {self.proposal!r}")
         if self.elites >= self.candidates:
@@ -88,7 +94,8 @@ class Settings:
         count = max(1, round(self.horizon / decision_seconds))
         if count < self.commit:
             raise TrainingError(
-                f"commit: expected at most the {count} decisions that {self.horizon:g} s are, got {self.commit}"
+                f"commit: expected at most {count} decisions, the horizon of {self.horizon:g} s, "
+                f"got {self.commit}"
             )
         return count
 

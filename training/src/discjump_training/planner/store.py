@@ -35,7 +35,9 @@ class Store:
         found = folder / RESULTS
         if found.exists():
             if not resume:
-                raise TrainingError(f"{folder} holds a plan already: go on with it (--resume) or name another folder")
+                raise TrainingError(
+                    f"{folder} holds a plan already: go on with it (--resume) or name another folder"
+                )
             self._read(found)
         (folder / "replays").mkdir(parents=True, exist_ok=True)
         self._write()
@@ -69,7 +71,8 @@ class Store:
         for key in SAME:
             if stored.get(key) != now[key]:
                 raise TrainingError(
-                    f"{path} was planned with {key} {stored.get(key)}, this is {now[key]}: name another folder"
+                    f"{path} was planned with {key} {stored.get(key)}, this is {now[key]}: "
+                    "name another folder"
                 )
         kept = tuple(one for one in outcomes if one.episode < empty.wanted)
         if len(kept) < len(outcomes):

@@ -7,7 +7,8 @@ from typing import Any
 from discjump.envs.tasks import Task
 from discjump_training import baselines
 from discjump_training.errors import TrainingError
-from discjump_training.planner import guides, objectives
+from discjump_training.planner import guides as who
+from discjump_training.planner import objectives
 from discjump_training.policy import Layout
 
 #: In place of value networks: the task's own objective, without any.
@@ -27,8 +28,8 @@ class Team:
     guides: tuple[str, ...]
     values: tuple[str, ...]
     options: dict[str, Any]
-    _networks: guides.Networks | None
-    _value: guides.Networks | None
+    _networks: who.Networks | None
+    _value: who.Networks | None
 
     @classmethod
     def of(cls, task: Task, names: Sequence[str], values: Sequence[str] | None) -> "Team":
@@ -50,23 +51,24 @@ class Team:
         networks = value = None
         options: dict[str, Any] = {}
         if scripts:
-            options = guides.script(task, scripts[0])
+            options = who.script(task, scripts[0])
         elif names:
-            networks, options = guides.load(list(names))
+            networks, options = who.load(list(names))
         if values:
-            value, theirs = guides.load(list(values))
+            value, theirs = who.load(list(values))
             if names and theirs != options:
                 raise TrainingError(
-                    f"value: expected a model of the options {options}, as {names[0]} needs them, got {theirs}"
+                    f"value: expected a model of the options {options}, as {names[0]} needs them, "
+                    f"got {theirs}"
                 )
             options = theirs
         return cls(tuple(names), tuple(values), options, networks, value)
 
-    def guide(self, env: Any) -> guides.Guide | None:
+    def guide(self, env: Any) -> who.Guide | None:
         """The guide for these environments."""
         if self._networks is not None:
             return self._networks
-        return guides.Scripts(self.guides[0], guides.Sight(env)) if self.guides else None
+        return who.Scripts(self.guides[0], who.Sight(env)) if self.guides else None
 
     def objective(self, task: Task, env: Any) -> Any:
         """The objective in these environments."""
@@ -82,4 +84,4 @@ class Team:
         """
         for name in dict.fromkeys([*self.guides, *self.values]):
             if name not in baselines.NAMES:
-                guides.load([name], env)
+                who.load([name], env)
