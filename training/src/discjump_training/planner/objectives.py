@@ -107,7 +107,8 @@ def to_beacon(layout: Layout, observations: Observations) -> Floats:
 
     The distance over a cruising speed, less what speed towards the beacon, height above it and energy are
     worth. Chosen by how fast plans are that want it, not by how well it predicts: a least-squares fit to
-    planned episodes of the training course predicts better (1.1 s rms in place of 2.0 s) and makes plans 2% slower.
+    planned episodes of the training course predicts better (1.1 s rms in place of 2.0 s) and makes plans 2%
+    slower.
     """
     distance = layout.read(observations, "beacon_distance")[:, 0]
     closing = layout.read(observations, "closing_speed")[:, 0]

@@ -41,7 +41,7 @@ class Settings:
     """share of the uniform distribution in each categorical one (`cem`, `mppi`)"""
     temperature: float = 0.1
     """difference in score that weighs 1/e (`mppi`), in units of the objective"""
-    guided: float = 0.5
+    guided: float = 0.25
     """share of the sequences that a model or script completes while they are simulated; 0 without one"""
     seed: int = 0
     """of all draws"""
