@@ -76,6 +76,25 @@ def test_a_batch_and_one_environment_record_the_same():
         same_bits(one.arrays, other.arrays)
 
 
+def test_actions_may_be_written_into_one_array():
+    """Caught: a recorder of many kept a view of the array that it was given, so who used it again for the
+    next actions got replays in which all actions were the last ones.
+    """
+    replays = []
+    for reuse in (False, True):
+        recorder = VectorRecorder(batch(), episodes=1)
+        recorder.reset(seed=4)
+        buffer = np.zeros((NUM_ENVS, 5), np.int64)
+        for actions in random_actions(1, DECISIONS, NUM_ENVS):
+            buffer[:] = actions
+            recorder.step(buffer if reuse else actions)
+        replays.append({replay.seed: replay.actions for replay in recorder.replays})
+    kept, reused = replays
+    assert len(kept) == NUM_ENVS
+    for seed, actions in kept.items():
+        np.testing.assert_array_equal(actions, reused[seed])
+
+
 def test_rows_and_numbers_of_episodes():
     recorder = record(batch(), rows=[1, 3], episodes=1)
     play(recorder)

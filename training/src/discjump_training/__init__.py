@@ -5,6 +5,7 @@
     train       PPO from top to bottom: learning, checkpoints, resuming
     runs        the folder of a run
     tune        search for the constants of the scripted baselines
+    planner     an upper bound: sequences of actions tried in copies of the environments
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
     intervals   bootstrap and exact intervals
     model       model files
@@ -14,6 +15,6 @@
     courses     named terrains and episodes
     policy      what a policy is, observations by name, actions by meaning
 
-Arrows point down only: cli -> train, tune, evaluate -> model, baselines -> episodes -> courses, policy;
-then `discjump`.
+Arrows point down only: planner -> cli -> train, tune, evaluate -> model, baselines -> episodes -> courses,
+policy; then `discjump`.
 """

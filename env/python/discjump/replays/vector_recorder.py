@@ -80,7 +80,8 @@ class VectorRecorder(VectorWrapper):
         ended = [row for row in self._tapes if over[row]]
         due = [row for row, (tape, _) in self._tapes.items() if tape.due]
         states = self._inner.state() if due or ended else None
-        taken = np.asarray(actions)
+        # The caller may write its next actions into the same array.
+        taken = np.array(actions)
         for row, (tape, _) in self._tapes.items():
             observation, info = observations[row], _Row(infos, row)
             state = None if states is None else states[row]

@@ -1,0 +1,133 @@
+"""What a planner wants: a score for each simulated sequence, more is better.
+
+An objective adds up what happens within the horizon and judges the state at its end, where the episode goes
+on. `OBJECTIVES` has one by task; a task that is not in it is planned for by its rewards. With a value network
+it is the discounted rewards and what the network expects after them, whatever the task.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from discjump_training.policy import Floats, Layout, Mask, Observations
+
+Value = Callable[[Observations], Floats]
+
+
+class Rewards:
+    """Sum of rewards, and the value of the state at the end.
+
+    Args:
+        discount: of each decision's reward.
+        value: of the last state; nothing where None.
+    """
+
+    def __init__(self, discount: float = 1.0, value: Value | None = None) -> None:
+        self._discount = discount
+        self._value = value
+
+    def begin(self, count: int) -> None:
+        """`count` sequences begin."""
+        self._total = np.zeros(count)
+        self._weight = 1.0
+
+    def add(self, rewards: Floats, ended: Mask, running: Mask, info: dict[str, Any]) -> None:
+        """A decision was simulated.
+
+        Args:
+            rewards: (count,).
+            ended: whose episode it ended, (count,).
+            running: whose episode had not ended before, (count,).
+            info: of the step.
+        """
+        self._total += np.where(running, self._weight * rewards, 0.0)
+        self._weight *= self._discount
+
+    def scores(self, observations: Observations, running: Mask, block: int) -> Floats:
+        """Scores (count,).
+
+        Args:
+            observations: the last ones, (count, size).
+            running: whose episode goes on, (count,).
+            block: observations that the value is asked about at once: one episode's.
+        """
+        if self._value is None:
+            return self._total
+        later = blockwise(self._value, observations, running, block)
+        return np.where(running, self._total + self._weight * later, self._total)
+
+
+class Seconds:
+    """Negative time until success, s; failures count as the time limit.
+
+    Args:
+        layout: of the observations.
+        time_limit: of the episodes, s.
+        to_go: seconds from a state to success, a guess.
+    """
+
+    def __init__(
+        self, layout: Layout, time_limit: float, to_go: Callable[[Layout, Observations], Floats]
+    ) -> None:
+        self._layout = layout
+        self._limit = time_limit
+        self._to_go = to_go
+
+    def begin(self, count: int) -> None:
+        """`count` sequences begin."""
+        self._score = np.zeros(count)
+        self._time = np.zeros(count)
+
+    def add(self, rewards: Floats, ended: Mask, running: Mask, info: dict[str, Any]) -> None:
+        """A decision was simulated."""
+        self._time = np.where(running, info["time"], self._time)
+        if ended.any():
+            reached = np.where(info["is_success"][ended], info["time"][ended], self._limit)
+            self._score[ended] = -reached
+
+    def scores(self, observations: Observations, running: Mask, block: int) -> Floats:
+        """Scores (count,)."""
+        later = blockwise(lambda some: self._to_go(self._layout, some), observations, running, block)
+        return np.where(running, -np.minimum(self._time + later, 2.0 * self._limit), self._score)
+
+
+def blockwise(value: Value, observations: Observations, running: Mask, block: int) -> Floats:
+    """`value` of each block that has anybody running in it; 0 elsewhere."""
+    found = np.zeros(len(observations))
+    for start in range(0, len(observations), block):
+        part = slice(start, start + block)
+        if running[part].any():
+            found[part] = value(observations[part])
+    return found
+
+
+def to_beacon(layout: Layout, observations: Observations) -> Floats:
+    """Seconds from states of `discjump/Ski-v0` to the beacon, a guess.
+
+    The distance over a cruising speed, less what speed towards the beacon, height above it and energy are
+    worth. Chosen by how fast plans are that want it, not by how well it predicts: a least-squares fit to
+    planned episodes of the training course predicts better (1.1 s rms in place of 2.0 s) and makes plans 2%
+    slower.
+    """
+    distance = layout.read(observations, "beacon_distance")[:, 0]
+    closing = layout.read(observations, "closing_speed")[:, 0]
+    above = -layout.read(observations, "beacon_height")[:, 0]
+    energy = layout.read(observations, "energy")[:, 0]
+    # Far away all of it can be used; the nearer, the less.
+    use = 1.0 - np.exp(-distance / 60.0)
+    speed = 31.0
+    return np.maximum(
+        distance / speed - use * (0.1 * closing + 0.02 * above + 0.015 * energy), distance / 70.0
+    )
+
+
+OBJECTIVES: dict[str, Callable[[Layout, Any], Any]] = {
+    "ski": lambda layout, options: Seconds(layout, options.time_limit, to_beacon),
+}
+"""By task's name, made of the layout of the observations and the task's options."""
+
+
+def make(task: str, layout: Layout, options: Any) -> Any:
+    """The task's objective without a value network."""
+    return OBJECTIVES[task](layout, options) if task in OBJECTIVES else Rewards()
