@@ -2,6 +2,7 @@
 
     cli         `discjump train` and `discjump evaluate`
     recipe      what a training run does, typed; recipes/ holds those that ship
+    recipe_file recipes as TOML
     train       PPO from top to bottom: learning, checkpoints, resuming
     runs        the folder of a run
     tune        search for the constants of the scripted baselines
