@@ -4,6 +4,7 @@
     recipe      what a training run does, typed; recipes/ holds those that ship
     recipe_file recipes as TOML
     train       PPO from top to bottom: learning, checkpoints, resuming
+    export      a policy as ONNX, with its card (`discjump export`)
     runs        the folder of a run
     tune        search for the constants of the scripted baselines
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
