@@ -6,6 +6,7 @@
     train       PPO from top to bottom: learning, checkpoints, resuming
     export      a policy as ONNX, with its card (`discjump export`)
     runs        the folder of a run
+    study       variants of a recipe, several seeds each, and their table
     tune        search for the constants of the scripted baselines
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it
     intervals   bootstrap and exact intervals
