@@ -1,8 +1,10 @@
+import re
 import tomllib
 
 import pytest
 
 from discjump.envs.options import REWARD
+from discjump.envs.tasks import TASKS
 from discjump_training import recipe
 from discjump_training.errors import RecipeError
 from discjump_training.recipe import Recipe, Section
@@ -28,33 +30,42 @@ def test_shipped_recipes_load_and_survive_toml(name):
     assert Recipe.parse(tomllib.loads(loaded.to_toml(help=True)), "again") == loaded
 
 
-def test_the_ablation_differs_in_the_fan_alone():
-    full, without = Recipe.load("ski").model_dump(), Recipe.load("ski_no_fan").model_dump()
-    assert (without["environment"].pop("fan_bearings"), without["environment"].pop("fan_ranges")) == ([], [])
-    del full["environment"]["fan_bearings"], full["environment"]["fan_ranges"]
-    assert without == full
+@pytest.mark.parametrize(
+    ("name", "without"),
+    [
+        ("ski_no_fan", {"fan_bearings": [], "fan_ranges": []}),
+        ("ski_blind", {"fan_bearings": [], "fan_ranges": [], "landing": False}),
+    ],
+)
+def test_an_ablation_differs_in_what_it_leaves_out_alone(name, without):
+    full = Recipe.load("ski").model_dump()
+    assert Recipe.load(name).model_dump() == full | {"environment": full["environment"] | without}
 
 
 @pytest.mark.parametrize(
     ("override", "message"),
     [
         ("ppo.gama=0.9", r"ppo\.gama: unknown field; known are .*gamma"),
-        ("sky.blue=1", r"sky: unknown field; known are environment"),
+        ("sky.blue=1", r"sky: unknown field; known are task, environment"),
         ("ppo.gamma='high'", r"ppo\.gamma: .*number, got 'high'"),
         ("ppo.gamma=1.5", r"ppo\.gamma: .*less than or equal to 1, got 1\.5"),
         ("ppo.n_epochs=2.5", r"ppo\.n_epochs: .*integer, got 2\.5"),
         ("ppo.n_epochs=true", r"ppo\.n_epochs: .*integer, got True"),
         ("rollout.num_envs=0", r"rollout\.num_envs: .*greater than 0, got 0"),
-        ("ppo.batch_size=1000", r"ppo\.batch_size: must divide .*65536, got 1000"),
-        ("environment.fan_ranges=[]", r"fan_bearings and fan_ranges: either both are empty"),
-        ("environment.tick_ms=0", r"environment\.tick_ms: .*greater than 0, got 0"),
+        ("ppo.batch_size=1000", r"ppo\.batch_size: must divide .*32768, got 1000"),
+        ("environment.tick_ms=0", r"environment: tick_ms: expected an integer from 1 to 1000, got 0"),
+        ("environment.frame_skip='4'", r"environment: frame_skip: expected an integer"),
+        ("environment.frameskip=4", r"environment: frameskip: expected one of .*did you mean 'frame_skip'"),
+        ("environment.terrain_seeds=[10_000]", r"environment: terrain_seeds: the course says which"),
+        ("task='sky'", r"task: expected one of ski.*, got 'sky'"),
+        ("environment=3", r"environment: .*dictionary"),
         ("environment.tick_ms=2000", r"environment: tick_ms: expected an integer from 1 to 1000, got 2000"),
         (
             "environment.surface='cubic'",
             r"environment: surface: expected one of 'triangles', 'bilinear', got 'cubic'",
         ),
         ("environment.fidelity='exact'", r"environment: fidelity: expected one of"),
-        ("environment.course='ski-v9'", r"no course is named 'ski-v9'; there are ski-train-v1"),
+        ("environment.course='ski-v9'", r"no course of ski is named 'ski-v9'; there are ski-train-v1"),
         ("watch.evaluate_episodes=100_000", r"evaluate_episodes: ski-validation-v1 has 512"),
         ("ppo.gamma", r"expected section\.field=value, got 'ppo\.gamma'"),
         ("ppo.activation=tanh", r"the value must be written as in TOML"),
@@ -67,7 +78,7 @@ def test_what_does_not_fit_is_refused_by_name(override, message):
 
 def test_the_reward_by_default_is_the_environments():
     """Caught: the recipe said -0.156 per second where the environment says -0.15625."""
-    assert Recipe.load("ski").environment.reward.model_dump() == REWARD
+    assert Recipe.load("ski").environment.kwargs()["reward"] == REWARD
 
 
 def test_physics_left_out_is_the_tasks():
@@ -91,3 +102,26 @@ def test_unreadable_files_are_refused(tmp_path):
     broken.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(RecipeError, match=r"cannot read"):
         Recipe.load(broken)
+
+
+def test_what_a_recipe_says_the_environment_takes():
+    """The options come from the task's own class: nothing is lost or altered on the way there."""
+    for task in TASKS.values():
+        told = Recipe.load(task.name).environment.kwargs()
+        made, default = task.options.from_keywords(told), task.options()
+        changed = tomllib.loads(Recipe.load(task.name).to_toml()).get("environment", {})
+        for name in told:
+            assert getattr(made, name) == getattr(default, name) or name in changed
+        assert not {"terrain_seeds", "terrains"} & set(told)
+
+
+def test_a_recipe_that_says_nothing_is_the_tasks_own():
+    bare = Recipe.parse({"task": "ski"}, "bare")
+    assert bare == Recipe.parse({}, "empty") == Recipe()
+    assert (bare.environment.course, bare.watch.evaluate_course) == ("ski-train-v1", "ski-validation-v1")
+
+
+def test_options_are_explained_by_their_docstrings():
+    text = Recipe.load("ski").to_toml(help=True)
+    assert "# Length of an episode, s; it ends truncated.\ntime_limit = 60.0\n" in text
+    assert re.search(r"# Bearings of the fan [^\n]*\n# left; empty: no fan\.\nfan_bearings", text)

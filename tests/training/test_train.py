@@ -2,11 +2,16 @@
 
 import csv
 import signal
+from dataclasses import asdict, replace
 
+import numpy as np
 import pytest
 import torch
 
+from discjump.envs.tasks import TASKS
 from discjump_training import model, runs, train
+from discjump_training.courses import COURSES
+from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.recipe import Recipe
 
@@ -190,6 +195,51 @@ def test_a_finished_run_is_not_trained_again(tiny, tmp_path):
         train.train(tiny, 0, folder, quiet=True)
     longer = tiny.with_steps(1_280)
     assert train.train(longer, 0, folder, resume=True, quiet=True).steps == 1_280
+
+
+def test_a_task_that_is_scored_by_shares_keeps_the_model_that_succeeds_most(tmp_path, monkeypatch, tiny):
+    """Any task of the table is trained: here one that differs from ski in name, options and score."""
+    other = replace(TASKS["ski"], name="other", score="share")
+    monkeypatch.setitem(TASKS, "other", other)
+    for kind in ("train", "validation"):
+        course = replace(COURSES[f"ski-{kind}-v1"], name=f"other-{kind}-v1", task="other")
+        monkeypatch.setitem(COURSES, course.name, course)
+    recipe = Recipe.load("other", (*TINY, "watch.evaluate_every=256", "environment.goal_distance=[20, 60]"))
+    assert recipe.watch.evaluate_course == "other-validation-v1"
+
+    shares, seconds = iter((0.25, 0.75, 0.75, 0.5)), iter((1.0, 9.0, 8.0, 2.0))
+    play = Stage.play
+
+    def played(self, *arguments):
+        episodes = play(self, *arguments)
+        assert self.course.task == "other"
+        assert self.inner.options.goal_distance == (20.0, 60.0)
+        count, share = len(episodes.success), next(shares)
+        return replace(
+            episodes,
+            success=np.arange(count) < share * count,
+            seconds=np.full(count, next(seconds)),
+        )
+
+    monkeypatch.setattr(Stage, "play", played)
+    result = train.train(recipe, 0, tmp_path / "run", quiet=True)
+    assert [point.validation_success for point in result.progress.curve] == [0.25, 0.75, 0.75, 0.5]
+    assert result.progress.best == result.progress.curve[2]
+    about = model.about(tmp_path / "run" / "best.zip")
+    assert (about["task"], about["steps"]) == ("other", 768)
+
+
+def test_a_checkpoint_that_is_older_than_the_field_best_still_goes_on():
+    progress = runs.Progress(3, curve=[point(5.0), point(4.0), point(6.0)], evaluated_at=7)
+    older = asdict(progress)
+    del older["best"]
+    again = runs.Progress.from_dict({**older, "best_seconds": 4.0})
+    assert again == replace(progress, best=point(4.0))
+    assert runs.Progress.from_dict(asdict(again)) == again
+
+
+def point(seconds: float) -> runs.Point:
+    return runs.Point(1, 1.0, 1.0, seconds, 1.0, 1.0, 1e-3)
 
 
 def test_a_damaged_checkpoint_is_refused(tiny, tmp_path):

@@ -74,6 +74,7 @@ def test_homes_keep_the_time_between_two_decisions_unless_they_are_about_it():
         decision_ms = home.config.tick_ms * home.frame_skip
         assert decision_ms == 128 if home.skip is None else decision_ms == 32 * home.skip
         recipe = home.recipe(Plan(), 1_000)
-        assert recipe.environment.fidelity == home.config.tier
-        assert recipe.environment.tick_ms * recipe.environment.frame_skip == decision_ms
+        trained = recipe.environment.kwargs()
+        assert trained["fidelity"] == home.config.tier
+        assert trained["tick_ms"] * trained["frame_skip"] == decision_ms
     assert len({home.folder(Path(), 0) for home in homes.homes(Plan())}) == len(homes.homes(Plan()))

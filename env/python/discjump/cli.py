@@ -26,6 +26,7 @@ TRAINING = {
     "train": "Train an agent.",
     "evaluate": "Judge an agent or a baseline on terrain it never saw.",
     "plan": "Plan episodes by simulation: an upper bound.",
+    "export": "Pack a trained policy: ONNX, zip, recipe and card.",
     "tradeoff": "Measure speed against accuracy, and draw it.",
 }
 """Subcommands of the package discjump-training, named here so that one learns where they are."""

@@ -2,8 +2,11 @@
 
     cli         `discjump train` and `discjump evaluate`
     recipe      what a training run does, typed; recipes/ holds those that ship
+    recipe_file recipes as TOML
     train       PPO from top to bottom: learning, checkpoints, resuming
+    export      a policy as ONNX, with its card (`discjump export`)
     runs        the folder of a run
+    study       variants of a recipe, several seeds each, and their table
     tune        search for the constants of the scripted baselines
     planner     an upper bound: sequences of actions tried in copies of the environments
     evaluate    policies on fixed episodes, compared pair by pair; report and picture show it

@@ -10,8 +10,9 @@ from pathlib import Path
 import click
 from rich.console import Console
 
+from discjump.envs.tasks import TASKS
 from discjump_training.courses import COURSES, HELD_OUT, MAX_RUN_SEED
-from discjump_training.errors import TrainingError
+from discjump_training.errors import RecipeError, TrainingError
 from discjump_training.recipe import Recipe
 
 #: Exit code after Ctrl-C, as shells have it.
@@ -29,13 +30,9 @@ SMOKE_EPISODES = 32
 CURVE = "curve.csv"
 
 
-@click.group()
-def train() -> None:
-    """Train an agent."""
-
-
-@train.command()
-@click.option("--recipe", "source", default="ski", show_default=True, help="TOML file, or a recipe by name.")
+@click.command()
+@click.argument("task", type=click.Choice(list(TASKS)))
+@click.option("--recipe", "source", help="TOML file, or a recipe by name.  [default: the task's]")
 @click.option(
     "--set", "overrides", multiple=True, metavar="FIELD=VALUE", help="Change a field of the recipe."
 )
@@ -43,7 +40,7 @@ def train() -> None:
 @click.option("--steps", type=click.IntRange(min=1), help="Decisions in all, in place of the recipe's.")
 @click.option("--threads", type=click.IntRange(min=1), help="Of the simulator, in place of the recipe's.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), help="Folder of the run.  [default: runs/ski-DATE-TIME]"
+    "--out", type=click.Path(path_type=Path), help="Folder of the run.  [default: runs/TASK-DATE-TIME]"
 )
 @click.option(
     "--resume", type=click.Path(path_type=Path), metavar="FOLDER", help="Go on with the run in FOLDER."
@@ -54,8 +51,9 @@ def train() -> None:
 )
 @click.option("--quiet", is_flag=True, help="No progress bar.")
 @click.option("--show-recipe", is_flag=True, help="Print the recipe, every field explained, and do nothing.")
-def ski(
-    source: str,
+def train(
+    task: str,
+    source: str | None,
     overrides: tuple[str, ...],
     seed: int | None,
     steps: int | None,
@@ -67,7 +65,7 @@ def ski(
     quiet: bool,
     show_recipe: bool,
 ) -> None:
-    """Train an agent for discjump/Ski-v0 with PPO.
+    """Train an agent for TASK with PPO.
 
     Ctrl-C stops after the update under way and says how to go on. One step is one decision of one
     environment.
@@ -79,21 +77,24 @@ def ski(
         if resume is not None:
             _refuse_with_resume(
                 {
-                    "--recipe": source != "ski",
+                    "--recipe": source is not None,
                     "--set": bool(overrides),
                     "--out": out is not None,
                     "--seed": seed is not None,
                     "--smoke": smoke,
                 }
             )
-        recipe = Recipe.load(resume / "recipe.toml" if resume else source, tuple(changes))
+        recipe = Recipe.load(resume / "recipe.toml" if resume else source or task, tuple(changes))
+        if recipe.task != task:
+            raise RecipeError(f"{resume or source} is a recipe for the task {recipe.task}, not for {task}")
         if show_recipe:
             click.echo(recipe.to_toml(help=True), nl=False)
             return
-        folder = resume or out or Path("runs") / f"ski-{datetime.now():%Y%m%d-%H%M%S}"
+        folder = resume or out or Path("runs") / f"{task}-{datetime.now():%Y%m%d-%H%M%S}"
         _train(recipe, seed or 0, folder, resume=resume is not None, quiet=quiet)
         if judge:
-            _evaluate((str(folder),), HELD_OUT.name, SMOKE_EPISODES if smoke else HELD_OUT.episodes)
+            held_out = COURSES[f"{task}-held-out-v1"]
+            _evaluate((str(folder),), held_out.name, SMOKE_EPISODES if smoke else held_out.episodes)
 
 
 def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool) -> None:
@@ -105,7 +106,7 @@ def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool
         result = run(recipe, seed, folder, resume=resume, quiet=quiet)
     except KeyboardInterrupt:
         click.echo(
-            f"Stopped at once. Go on from the last checkpoint: discjump train ski --resume {folder}"
+            f"Stopped at once. Go on from the last checkpoint: discjump train {recipe.task} --resume {folder}"
             if checkpoints(folder)
             else f"Stopped at once, before the first checkpoint: a run in {folder} begins anew.",
             err=True,
@@ -115,17 +116,19 @@ def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool
     if not result.finished:
         click.echo(
             f"Stopped at {result.steps:,} of {recipe.ppo.steps:,} decisions, everything is saved.\n"
-            f"Go on with: discjump train ski --resume {folder}",
+            f"Go on with: discjump train {recipe.task} --resume {folder}",
             err=True,
         )
         sys.exit(INTERRUPTED)
+    best = result.progress.best
+    assert best is not None
     click.echo(
         f"{result.steps:,} decisions in {clock.training:.0f} s of training "
         f"({result.steps / clock.training:,.0f} a second;"
         f" environment {clock.share('environment'):.0%}, policy {clock.share('policy'):.0%}, "
         f"update {clock.share('update'):.0%}) and {clock.evaluation:.0f} s of evaluation.\n"
-        f"Best model: {folder / 'best.zip'}, {result.progress.best_seconds:.2f} s on "
-        f"{recipe.watch.evaluate_course}."
+        f"Best model: {folder / 'best.zip'}, {best.validation_success:.1%} succeed, "
+        f"{best.validation_seconds:.2f} s on {recipe.watch.evaluate_course}."
     )
 
 

@@ -31,12 +31,14 @@ class Course:
         terrain_seeds: seeds of the generated terrains that episodes draw from.
         base_seed: environment seed of episode 0.
         episodes: number of episodes in the course.
+        task: short name of the task that it is a course of.
     """
 
     name: str
     terrain_seeds: tuple[int, ...]
     base_seed: int
     episodes: int
+    task: str = "ski"
 
     def seeds(self, episodes: int | None = None) -> NDArray[np.uint64]:
         """Environment seeds of the first `episodes` episodes (all by default), shape (episodes,).

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import discjump  # noqa: F401  registers the environment ids
+from discjump.envs.tasks import TASKS
 from discjump.replays import EpisodeReplay, VectorRecorder
 from discjump_training.courses import Course
 from discjump_training.policy import Floats, Layout, Mask, Policy
@@ -52,7 +53,7 @@ class Stage:
     Args:
         course: which terrains and episodes.
         episodes: how many of them; all by default.
-        options: of `discjump/Ski-v0`, terrains excepted.
+        options: of the task's environment, terrains excepted.
         threads: of the simulator; all cores by default.
     """
 
@@ -66,7 +67,7 @@ class Stage:
         self.course = course
         self._seeds = [int(seed) for seed in course.seeds(episodes)]
         self.env = gymnasium.make_vec(
-            "discjump/Ski-v0",
+            TASKS[course.task].id,
             num_envs=len(self._seeds),
             threads=threads,
             terrain_seeds=list(course.terrain_seeds),

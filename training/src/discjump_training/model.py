@@ -114,7 +114,7 @@ class Greedy:
     def __call__(self, observations: Observations) -> Actions:
         """Actions for a batch of observations."""
         actions, _ = self.ppo.predict(observations, deterministic=True)
-        return np.asarray(actions, dtype=np.int64)
+        return _typed(actions)
 
     def reset(self, done: Mask) -> None:
         """Nothing is remembered."""
@@ -144,10 +144,16 @@ class Sampled(Greedy):
             torch.set_rng_state(self._state)
             actions, _ = self.ppo.predict(observations, deterministic=False)
             self._state = torch.get_rng_state()
-        return np.asarray(actions, dtype=np.int64)
+        return _typed(actions)
 
 
-def check_spaces(ppo: PPO, path: Path, env: VectorEnv[Any, Any, Any]) -> None:
+def _typed(actions: Any) -> Actions:
+    # Numbers stay numbers: an environment with actions="box" takes no integers, and one with bins no floats.
+    made = np.asarray(actions)
+    return made if made.dtype == np.float32 else made.astype(np.int64)
+
+
+def check_spaces(ppo: PPO, path: Path | str, env: VectorEnv[Any, Any, Any]) -> None:
     """Refuse an environment whose spaces are not the model's.
 
     Raises:

@@ -1,25 +1,33 @@
 """The recipe of a training run: everything that decides its outcome except the seed, typed and explained.
 
-A recipe is a TOML file with the sections below. Fields left out take their defaults; fields that are
-unknown, of the wrong type or out of range are refused by name.
+A recipe is a TOML file with the sections below. It names its task; its section `environment` holds options
+of that task's environment. Fields left out take their defaults; fields that are unknown, of the wrong type
+or out of range are refused by name.
 """
 
-import json
 import tomllib
-from importlib import resources
+from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from discjump.envs.options import FAN_BEARINGS, FAN_RANGES, REWARD, SkiOptions
-from discjump.terrains import SURFACES
-from discjump_training.courses import COURSES
+from discjump.envs.tasks import TASKS, Task
+from discjump_training import recipe_file
+from discjump_training.courses import COURSES, Course
 from discjump_training.errors import RecipeError
+from discjump_training.recipe_file import names
+
+__all__ = ["PPO", "Environment", "Recipe", "Rollout", "Section", "Watch", "names"]
 
 Positive = Annotated[float, Field(gt=0)]
 Count = Annotated[int, Field(gt=0)]
 Share = Annotated[float, Field(ge=0, le=1)]
+
+#: Options that a recipe cannot set: what is trained on is its course's to say, so that no recipe can train on
+#: the terrains that policies are judged on.
+GROUND = ("terrain_seeds", "terrains")
 
 
 class Section(BaseModel):
@@ -28,58 +36,17 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class Reward(Section):
-    """Weights of the terms of the reward."""
-
-    progress: float = Field(
-        REWARD["progress"], description="per metre by which the distance to the beacon shrank"
-    )
-    time: float = Field(REWARD["time"], description="per second of the episode")
-    arrival: float = Field(REWARD["arrival"], description="once, on reaching the beacon")
-
-
 class Environment(Section):
-    """What the agent is trained in."""
+    """What the agent is trained in: the course, and every option of the task's environment that TOML can
+    say, whether it was given or not.
+    """
+
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True)
 
     course: str = Field("ski-train-v1", description="course whose terrains are trained on")
-    fidelity: str = Field("authentic", description="fidelity tier of the physics")
-    tick_ms: Count = Field(SkiOptions.tick_ms, description="length of a tick, milliseconds")
-    surface: str = Field(SURFACES[0], description="what lies between the heights: triangles or bilinear")
-    frame_skip: Count = Field(4, description="ticks per decision")
-    fan_bearings: list[float] = Field(
-        list(FAN_BEARINGS),
-        description="bearings of the fan (rise of the terrain over range, dimensionless), degrees, 0 ahead, "
-        "positive left; empty: no fan",
-    )
-    fan_ranges: list[float] = Field(
-        list(FAN_RANGES),
-        description="ranges of the fan, metres; empty: no fan",
-    )
-    landing: bool = Field(True, description="observe features of the ballistic landing")
-    reward: Reward = Field(Reward(), description="weights of the terms of the reward")
-
-    @model_validator(mode="after")
-    def _course_exists(self) -> Self:
-        if self.course not in COURSES:
-            raise ValueError(f"course: no course is named {self.course!r}; there are {', '.join(COURSES)}")
-        return self
-
-    @model_validator(mode="after")
-    def _fan_is_whole(self) -> Self:
-        if bool(self.fan_bearings) != bool(self.fan_ranges):
-            raise ValueError("fan_bearings and fan_ranges: either both are empty (no fan) or neither is")
-        return self
-
-    @model_validator(mode="after")
-    def _environment_takes_it(self) -> Self:
-        try:
-            SkiOptions.from_keywords(self.kwargs())
-        except (TypeError, ValueError) as error:
-            raise ValueError(str(error)) from None
-        return self
 
     def kwargs(self) -> dict[str, Any]:
-        """Keyword arguments of `discjump/Ski-v0`, terrains excepted."""
+        """Keyword arguments of the task's environment, terrains excepted."""
         return self.model_dump(exclude={"course"})
 
 
@@ -122,26 +89,44 @@ class Watch(Section):
     checkpoint_every: Count = Field(2_000_000, description="decisions between two checkpoints")
     keep_checkpoints: Count = Field(3, description="checkpoints kept; older ones are deleted")
 
-    @model_validator(mode="after")
-    def _course_has_them(self) -> Self:
-        course = COURSES.get(self.evaluate_course)
-        if course is None:
-            raise ValueError(
-                f"evaluate_course: no course is named {self.evaluate_course!r}; "
-                f"there are {', '.join(COURSES)}"
-            )
-        if self.evaluate_episodes > course.episodes:
-            raise ValueError(f"evaluate_episodes: {course.name} has {course.episodes} episodes")
-        return self
-
 
 class Recipe(Section):
     """Everything that decides the outcome of a training run except its seed."""
 
+    task: str = Field("ski", description="what is learned: the short name of a task")
     environment: Environment = Field(Environment(), description="what the agent is trained in")
     rollout: Rollout = Field(Rollout(), description="how experience is collected")
     ppo: PPO = Field(PPO(), description="the learning algorithm")
     watch: Watch = Field(Watch(), description="what is measured and kept on the way")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _for_its_task(cls, data: Any) -> Any:
+        """Fill in what depends on the task: courses, and the options of its environment."""
+        if not isinstance(data, Mapping):
+            return data
+        task = TASKS.get(data.get("task", "ski"))
+        if task is None:
+            raise ValueError(f"task: expected one of {', '.join(TASKS)}, got {data['task']!r}")
+        filled = dict(data)
+        for name, kind, field in (
+            ("environment", "train", "course"),
+            ("watch", "validation", "evaluate_course"),
+        ):
+            section = data.get(name, {})
+            if isinstance(section, Mapping):
+                filled[name] = {**section, field: section.get(field) or f"{task.name}-{kind}-v1"}
+        if isinstance(filled["environment"], Mapping):
+            filled["environment"] = _with_options(task, filled["environment"])
+        return filled
+
+    @model_validator(mode="after")
+    def _courses_are_the_tasks(self) -> Self:
+        _course(self.task, "environment.course", self.environment.course)
+        course = _course(self.task, "watch.evaluate_course", self.watch.evaluate_course)
+        if self.watch.evaluate_episodes > course.episodes:
+            raise ValueError(f"watch.evaluate_episodes: {course.name} has {course.episodes} episodes")
+        return self
 
     @model_validator(mode="after")
     def _batches_divide(self) -> Self:
@@ -158,17 +143,21 @@ class Recipe(Section):
         """Read a recipe from a TOML file, or from the package by name (`ski`).
 
         Args:
-            source: path of a TOML file, or the name of a recipe that ships with the package.
+            source: path of a TOML file, or the name of a recipe that ships with the package, or of a task:
+                where no recipe has its name, all fields take their defaults.
             overrides: `section.field=value` strings, the value in TOML's syntax.
 
         Raises:
             RecipeError: if the file cannot be read or a field does not fit.
         """
-        text, where = _read(source)
+        if source in TASKS and source not in names():
+            text, where = f'task = "{source}"', f"recipe {source}"
+        else:
+            text, where = recipe_file.read(source)
         try:
             data = tomllib.loads(text)
             for override in overrides:
-                _merge(data, _parse_override(override))
+                recipe_file.merge(data, recipe_file.parse_override(override))
         except tomllib.TOMLDecodeError as error:
             raise RecipeError(f"{where} is not TOML: {error}") from None
         return cls.parse(data, where)
@@ -181,61 +170,59 @@ class Recipe(Section):
         except ValidationError as error:
             lines = [f"{where} does not fit a recipe:"]
             for fault in error.errors():
-                field = ".".join(str(part) for part in fault["loc"]) or "recipe"
+                field = "".join(f"{part}." for part in fault["loc"])[:-1]
                 given = "" if fault["type"] in ("missing", "value_error") else f", got {fault['input']!r}"
                 message = fault["msg"].removeprefix("Value error, ")
                 if fault["type"] == "extra_forbidden":
                     message, given = f"unknown field; {_known_fields(cls, fault['loc'])}", ""
-                lines.append(f"  {field}: {message}{given}")
+                lines.append(f"  {field}{': ' if field else ''}{message}{given}")
             raise RecipeError("\n".join(lines)) from None
 
     def with_steps(self, steps: int) -> Self:
         """The same recipe with another number of decisions."""
-        return self.parse(_merge(self.model_dump(), {"ppo": {"steps": steps}}), "--steps")
+        return self.parse(recipe_file.merge(self.model_dump(), {"ppo": {"steps": steps}}), "--steps")
 
     def to_toml(self, *, help: bool = False) -> str:
         """This recipe as TOML; with `help`, each field's explanation stands above it."""
-        return "\n".join(_toml_lines(self, "", help)).lstrip("\n") + "\n"
+        options = TASKS[self.task].options
+        return "\n".join(recipe_file.lines(self, "", help, options)).lstrip("\n") + "\n"
 
 
-def names() -> list[str]:
-    """Names of the recipes that ship with the package."""
-    folder = resources.files("discjump_training").joinpath("recipes")
-    return sorted(
-        entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")
-    )
-
-
-def _read(source: str | Path) -> tuple[str, str]:
-    if isinstance(source, str) and source in names():
-        entry = resources.files("discjump_training").joinpath("recipes", f"{source}.toml")
-        return entry.read_text(encoding="utf-8"), f"recipe {source}"
+def _with_options(task: Task, section: Mapping[str, Any]) -> dict[str, Any]:
+    """The section `environment` with every option that TOML can say, as the task's own class has it."""
+    given = {name: value for name, value in section.items() if name != "course"}
+    for name in GROUND:
+        if name in given:
+            raise ValueError(f"environment: {name}: the course says which terrains are trained on")
     try:
-        return Path(source).read_text(encoding="utf-8"), str(source)
-    except (OSError, UnicodeDecodeError) as error:
-        known = ", ".join(names())
-        raise RecipeError(f"cannot read the recipe {source}: {error}; recipes by name: {known}") from None
+        options = task.options.from_keywords(given)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"environment: {error}") from None
+    said = {field.name: _plain(getattr(options, field.name)) for field in fields(options)}
+    return {"course": section["course"]} | {
+        name: value for name, value in said.items() if name not in GROUND and value is not None
+    }
 
 
-def _parse_override(text: str) -> dict[str, Any]:
-    key, equals, value = text.partition("=")
-    if not equals or not key.strip():
-        raise RecipeError(f"expected section.field=value, got {text!r}")
-    try:
-        return tomllib.loads(f"{key.strip()} = {value.strip()}")
-    except tomllib.TOMLDecodeError as error:
-        raise RecipeError(
-            f"{text!r}: the value must be written as in TOML (strings in quotes): {error}"
-        ) from None
+def _plain(value: object) -> Any:
+    """As TOML has it: lists for tuples; None for what it cannot say."""
+    if isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, Mapping):
+        inner = {str(key): _plain(part) for key, part in value.items()}
+        return None if None in inner.values() else inner
+    if isinstance(value, list | tuple):
+        parts = [_plain(part) for part in value]
+        return None if None in parts else parts
+    return None
 
 
-def _merge(into: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
-    for key, value in new.items():
-        if isinstance(value, dict) and isinstance(into.get(key), dict):
-            _merge(into[key], value)
-        else:
-            into[key] = value
-    return into
+def _course(task: str, field: str, name: str) -> Course:
+    course = COURSES.get(name)
+    if course is None or course.task != task:
+        known = ", ".join(one.name for one in COURSES.values() if one.task == task) or "none"
+        raise ValueError(f"{field}: no course of {task} is named {name!r}; there are {known}")
+    return course
 
 
 def _known_fields(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
@@ -245,19 +232,3 @@ def _known_fields(model: type[BaseModel], location: tuple[int | str, ...]) -> st
         assert issubclass(annotation, BaseModel)
         model = annotation
     return f"known are {', '.join(model.model_fields)}"
-
-
-def _toml_lines(section: BaseModel, prefix: str, help: bool) -> list[str]:
-    lines: list[str] = []
-    nested: list[str] = []
-    for name, field in type(section).model_fields.items():
-        value = getattr(section, name)
-        if isinstance(value, BaseModel):
-            comment = [f"# {field.description}"] if help else []
-            nested += ["", *comment, f"[{prefix}{name}]", *_toml_lines(value, f"{prefix}{name}.", help)]
-            continue
-        if help:
-            lines.append(f"# {field.description}")
-        # JSON's spelling of numbers, strings, booleans and lists is TOML's too.
-        lines.append(f"{name} = {json.dumps(value)}")
-    return lines + nested

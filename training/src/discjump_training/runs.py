@@ -3,7 +3,7 @@
 recipe.toml     what was asked for
 run.json        seed, versions, machine, how far it came and where the time went
 curve.csv       the learning curve, a row per evaluation
-best.zip        the model that was fastest on the validation course
+best.zip        the model with the best score on the validation course
 final.zip       the model at the end
 checkpoints/    everything needed to go on: model, optimiser, episodes under way, random generators
 tensorboard/    for `tensorboard --logdir`
@@ -15,6 +15,7 @@ import io
 import json
 import os
 import platform
+import subprocess
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
 from pathlib import Path
@@ -38,7 +39,7 @@ FOLDERS = ("checkpoints", "tensorboard")
 
 @dataclass
 class Point:
-    """A row of the learning curve."""
+    """A row of the learning curve; seconds count a failure as the time limit."""
 
     steps: int
     training_seconds: float
@@ -47,6 +48,16 @@ class Point:
     training_success: float
     training_return: float
     learning_rate: float
+
+    def rank(self, score: str) -> tuple[float, float]:
+        """What is larger for the better one: by the time, or by the share of successes and then the time.
+
+        Args:
+            score: the task's, `seconds` or `share`.
+        """
+        if score == "seconds":
+            return -self.validation_seconds, self.validation_success
+        return self.validation_success, -self.validation_seconds
 
 
 @dataclass
@@ -75,16 +86,23 @@ class Progress:
     seed: int
     curve: list[Point] = field(default_factory=list)
     clock: Clock = field(default_factory=Clock)
-    best_seconds: float = float("inf")
+    best: Point | None = None
     evaluated_at: int = 0
     checkpointed_at: int = 0
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Progress":
-        """The inverse of `dataclasses.asdict`."""
-        return cls(
-            **{**data, "curve": [Point(**row) for row in data["curve"]], "clock": Clock(**data["clock"])}
-        )
+        """The inverse of `dataclasses.asdict`.
+
+        Checkpoints that are older than the field `best` have the seconds of the best point alone.
+        """
+        curve = [Point(**row) for row in data["curve"]]
+        if "best" in data:
+            best = None if data["best"] is None else Point(**data["best"])
+        else:
+            best = min(curve, key=lambda point: point.validation_seconds, default=None)
+        kept = {name: data[name] for name in ("seed", "evaluated_at", "checkpointed_at")}
+        return cls(curve=curve, clock=Clock(**data["clock"]), best=best, **kept)
 
 
 def check_is_free(folder: Path) -> None:
@@ -143,17 +161,19 @@ def write_curve(path: Path, curve: list[Point]) -> None:
     write_atomically(path, text.getvalue().encode())
 
 
-def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> None:
+def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int, from_commit: str | None) -> None:
     """What was run, on what, how far, and where the time went."""
     clock = progress.clock
     run = {
+        "task": recipe.task,
         "seed": progress.seed,
         "steps": steps,
         "finished": steps >= recipe.ppo.steps,
         "steps_per_second": steps / clock.training,
         "seconds": asdict(clock),
         "environment_share": clock.share("environment"),
-        "best_validation_seconds": progress.best_seconds,
+        "best": None if progress.best is None else asdict(progress.best),
+        "commit": from_commit,
         "versions": {
             name: metadata.version(name) for name in ("discjump", "stable-baselines3", "torch", "numpy")
         },
@@ -161,3 +181,29 @@ def write_run(folder: Path, recipe: Recipe, progress: Progress, steps: int) -> N
         "machine": f"{platform.machine()}, {os.cpu_count()} cores",
     }
     write_atomically(folder / "run.json", (json.dumps(run, indent=2) + "\n").encode())
+
+
+def commit() -> str | None:
+    """Commit of the checkout that this package runs from, with `-dirty` where files differ; None where
+    it runs from no checkout, or there is no git.
+    """
+    try:
+        said = subprocess.run(
+            ["git", "describe", "--always", "--abbrev=40", "--exclude=*", "--dirty"],
+            cwd=Path(__file__).parent,
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=10,
+        )
+        # A package that was installed below somebody else's checkout is not that checkout's.
+        subprocess.run(
+            ["git", "ls-files", "--error-unmatch", Path(__file__).name],
+            cwd=Path(__file__).parent,
+            capture_output=True,
+            check=True,
+            timeout=10,
+        )
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return said.stdout.strip()

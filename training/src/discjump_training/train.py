@@ -1,4 +1,4 @@
-"""Train a ski agent with stable-baselines3's PPO: the whole of it, from top to bottom.
+"""Train an agent with stable-baselines3's PPO: the whole of it, from top to bottom.
 
 Environments and a model are made (or loaded), `PPO.learn` alternates between collecting experience and
 updating, and a `Watcher` looks in between the two: it evaluates, saves and stops. What a run leaves behind
@@ -29,6 +29,7 @@ from stable_baselines3.common.vec_env.base_vec_env import VecEnvObs, VecEnvStepR
 from tqdm import tqdm
 
 import discjump.sb3
+from discjump.envs.tasks import TASKS
 from discjump_training import episodes, model, runs
 from discjump_training.courses import COURSES, run_seed
 from discjump_training.errors import RecipeError, TrainingError
@@ -131,7 +132,7 @@ def make_env(recipe: Recipe, seed: int) -> discjump.sb3.TaskVecEnv:
     course = COURSES[recipe.environment.course]
     try:
         return discjump.sb3.make_vec_env(
-            "discjump/Ski-v0",
+            TASKS[recipe.task].id,
             n_envs=recipe.rollout.num_envs,
             seed=run_seed(seed),
             threads=recipe.rollout.threads,
@@ -206,6 +207,7 @@ class Watcher(BaseCallback):
         self._break_off = False
         self.finished = False
         self.steps = 0
+        self._commit = runs.commit()
         self._mark = 0.0
         self._environment_mark = 0.0
 
@@ -273,12 +275,13 @@ class Watcher(BaseCallback):
         runs.write_curve(self.folder / "curve.csv", self.progress.curve)
         self.logger.record("validation/success", point.validation_success)
         self.logger.record("validation/seconds", point.validation_seconds)
-        if point.validation_seconds < self.progress.best_seconds:
-            self.progress.best_seconds = point.validation_seconds
+        score, best = TASKS[self.recipe.task].score, self.progress.best
+        if best is None or point.rank(score) > best.rank(score):
+            self.progress.best = point
             model.save(self._ppo, self.folder / model.BEST, self._about())
         self.progress.clock.evaluation += time.perf_counter() - start
         self.bar.write(
-            f"{self.steps:>12,} decisions: {point.validation_success:6.1%} reach the beacon, "
+            f"{self.steps:>12,} decisions: {point.validation_success:6.1%} succeed, "
             f"{point.validation_seconds:5.2f} s on {self.recipe.watch.evaluate_course}"
         )
 
@@ -300,15 +303,17 @@ class Watcher(BaseCallback):
         model.save(self._ppo, store / f"{self.steps:012d}.zip", about, {ENVIRONMENT_ENTRY: snapshot})
         for old in runs.checkpoints(self.folder)[: -self.recipe.watch.keep_checkpoints]:
             old.unlink()
-        runs.write_run(self.folder, self.recipe, self.progress, self.steps)
+        runs.write_run(self.folder, self.recipe, self.progress, self.steps, self._commit)
 
     def _about(self) -> dict[str, Any]:
         return {
             "steps": self.steps,
+            "task": self.recipe.task,
             "seed": self.progress.seed,
             "environment": self.recipe.environment.kwargs(),
             "recipe": self.recipe.model_dump(),
             "discjump": metadata.version("discjump"),
+            "commit": self._commit,
         }
 
 
