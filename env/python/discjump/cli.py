@@ -25,6 +25,8 @@ GROUP = "discjump.commands"
 TRAINING = {
     "train": "Train an agent.",
     "evaluate": "Judge an agent or a baseline on terrain it never saw.",
+    "compare": "Compare two policies on the same episodes.",
+    "leaderboard": "Rank replays, each played again before its score is shown.",
     "tradeoff": "Measure speed against accuracy, and draw it.",
 }
 """Subcommands of the package discjump-training, named here so that one learns where they are."""

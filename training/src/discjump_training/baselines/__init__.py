@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from discjump_training.baselines.script import Script, SkierParameters, TackerParameters
+from discjump_training.draws import RowDraws
 from discjump_training.episodes import Stage
 from discjump_training.errors import TrainingError
 from discjump_training.policy import BINS, Actions, Mask, Observations, Policy
@@ -21,6 +22,8 @@ from discjump_training.policy import BINS, Actions, Mask, Observations, Policy
 #: Baselines by name, with the parameters they are tuned in.
 PARAMETERS: dict[str, type[SkierParameters]] = {"skier": SkierParameters, "tacker": TackerParameters}
 NAMES = ("random", *PARAMETERS)
+#: Those of each task; a task that is not listed has `random` alone.
+OF_TASK: dict[str, tuple[str, ...]] = {"ski": NAMES}
 
 #: Ranges of the fan that the scripts look at, straight ahead, metres.
 RANGES = (6.0, 16.0, 35.0, 70.0, 120.0)
@@ -29,23 +32,34 @@ OPTIONS: dict[str, Any] = {"fan_bearings": [0.0], "fan_ranges": list(RANGES), "l
 
 
 class Random:
-    """Presses keys at random, anew at each decision."""
+    """Presses keys at random, anew at each decision; each row of a course has draws of its own.
+
+    Args:
+        seed: of the draws.
+        bins: of each action.
+    """
 
     name = "random"
     note = "uniform"
 
-    def __init__(self, seed: int = 0) -> None:
-        self._seed = seed
-        self._draw = np.random.default_rng(seed)
+    def __init__(self, seed: int = 0, bins: tuple[int, ...] = BINS) -> None:
+        def draw(generator: np.random.Generator, count: int) -> Actions:
+            return generator.integers(0, bins, size=(count, len(bins)), dtype=np.int64)
+
+        self._draws = RowDraws(seed, draw)
+
+    def begin(self, rows: range) -> None:
+        """The episodes of these rows are played next."""
+        self._draws.begin(rows)
 
     def __call__(self, observations: Observations) -> Actions:
         """Actions for a batch of observations."""
-        return self._draw.integers(0, BINS, size=(len(observations), len(BINS)), dtype=np.int64)
+        return self._draws.next(len(observations))
 
     def reset(self, done: Mask) -> None:
         """When all episodes begin anew, so do the draws."""
         if done.all():
-            self._draw = np.random.default_rng(self._seed)
+            self._draws.restart()
 
 
 def make(name: str, stage: Stage, parameters: SkierParameters | None = None) -> Policy:
@@ -62,8 +76,18 @@ def make(name: str, stage: Stage, parameters: SkierParameters | None = None) -> 
     if name not in NAMES:
         raise TrainingError(f"no baseline is named {name!r}; there are {', '.join(NAMES)}")
     if name == "random":
-        return Random()
+        return Random(bins=stage.bins)
     return Script(name, parameters or tuned(name), stage.layout, np.array(RANGES), stage.turn_rate)
+
+
+def names(task: str) -> tuple[str, ...]:
+    """Names of the baselines of a task."""
+    return OF_TASK.get(task, ("random",))
+
+
+def options(task: str) -> dict[str, Any]:
+    """Options of the task's environment that its baselines need to see what they look at."""
+    return dict(OPTIONS) if task == "ski" else {}
 
 
 def tuned(name: str) -> SkierParameters:
