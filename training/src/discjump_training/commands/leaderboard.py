@@ -41,26 +41,25 @@ def leaderboard(places: tuple[Path, ...], course: str | None, episodes: int | No
     with clean_errors():
         only = None if course is None else course_named(course)
         from discjump_training.files import write_atomically
-        from discjump_training.judge import leaderboard as board
+        from discjump_training.judge.leaderboard import found, show
+        from discjump_training.judge.leaderboard import leaderboard as ranked
 
-        files = board.found(places)
+        files = found(places)
         click.echo(f"{len(files)} replays are played again ...", err=True)
 
         def tell(count: int) -> None:
             if sys.stderr.isatty():
                 click.echo(f"  {count} of {len(files)}\r", nl=False, err=True)
 
-        made = board.leaderboard(files, only, episodes, tell)
+        made = ranked(files, only, episodes, tell)
         out.mkdir(parents=True, exist_ok=True)
-        write_atomically(
-            out / "leaderboard.json", (json.dumps(board.as_json(made), indent=1) + "\n").encode()
-        )
-        write_atomically(out / "leaderboard.md", board.markdown(made).encode())
+        write_atomically(out / "leaderboard.json", (json.dumps(show.as_json(made), indent=1) + "\n").encode())
+        write_atomically(out / "leaderboard.md", show.markdown(made).encode())
         console = Console(width=None if sys.stdout.isatty() else 160)
-        for table in board.tables(made):
+        for table in show.tables(made):
             console.print(table.title)
             console.print(table.rich())
-        click.echo(board.NOTE)
+        click.echo(show.NOTE)
         click.echo(f"{len(made.runs)} of {len(files)} replays count.")
         for suffix in ("json", "md"):
             click.echo(str(out / f"leaderboard.{suffix}"))

@@ -21,7 +21,7 @@ def svg(figure: Figure, told: str) -> Markup:
 
 
 def png(figure: Figure, told: str, dpi: int = 110) -> Markup:
-    """A figure as an image within the page, in 256 colours: enough for a hillshade, and a third of the bytes."""
+    """A figure as an image within the page, in 256 colours: enough for a hillshade."""
     buffer, small = io.BytesIO(), io.BytesIO()
     figure.savefig(buffer, format="png", dpi=dpi)
     with Image.open(buffer) as image:
