@@ -1,7 +1,7 @@
 """The HTML report of an evaluation: one file that needs no other and no network.
 
 charts    figures of scores and of single episodes, as SVG
-maps      command maps with paths coloured by speed, as PNG
+maps      command maps with paths coloured by speed, as WebP
 embed     how both become part of the page
 page.html the template
 """
@@ -77,7 +77,8 @@ def _episode(made: Evaluation, drawn: list[Judged], row: int) -> dict[str, Any]:
             {
                 "name": one.name,
                 "colour": charts.colour(drawn, one.name),
-                "told": f"{word} {played.time[row]:.2f} s, top speed {played.top_speed[row]:.1f} m/s",
+                "told": ("in its first run " if len(one.members) > 1 else "")
+                + f"{word} {played.time[row]:.2f} s, top speed {played.top_speed[row]:.1f} m/s",
             }
         )
     radius = float(conditions.changes.get("arrival_radius", conditions.task.options.arrival_radius))

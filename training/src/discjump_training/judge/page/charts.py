@@ -25,7 +25,7 @@ def colour(judged: Sequence[Judged], name: str) -> str:
 
 def scores(made: Evaluation) -> Markup:
     """Which share of the episodes each policy finished within which time."""
-    figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+    figure = Figure(figsize=(5.6, 3.0), layout="constrained")
     axes = figure.add_subplot()
     drawn = [one for one in made.judged if one.name != "random"] or made.judged
     limit = made.conditions.time_limit
@@ -51,17 +51,17 @@ def scores(made: Evaluation) -> Markup:
 
 def curve(curves: dict[str, Path], levels: dict[str, float], goal: str) -> Markup:
     """Learning curves of the runs that were judged."""
-    figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+    figure = Figure(figsize=(5.6, 3.0), layout="constrained")
     axes = figure.add_subplot()
     picture.learning_curve(axes, curves, levels)
-    axes.set_ylabel(f"time to {goal} on the validation course, s", fontsize=8)
+    axes.set_ylabel(f"time to {goal}, validation, s", fontsize=8)
     finished(axes)
     return svg(figure, "Learning curves")
 
 
 def profiles(made: Evaluation, drawn: list[Judged], row: int, terrain: Terrain) -> Markup:
     """Speed and energy over time, and height along the route with the ground under it, of one episode."""
-    figure = Figure(figsize=(7.2, 4.2 + 1.3 * len(drawn)), layout="constrained")
+    figure = Figure(figsize=(5.4, 2.9 + 0.95 * len(drawn)), layout="constrained")
     ratios = [1.3, 1.0, *[1.0] * len(drawn)]
     grid = figure.add_gridspec(len(ratios), 1, height_ratios=ratios)
     speed = figure.add_subplot(grid[0])

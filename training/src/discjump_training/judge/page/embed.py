@@ -20,14 +20,14 @@ def svg(figure: Figure, told: str) -> Markup:
     return Markup(opened.replace("<svg", f'<svg role="img" aria-label="{Markup.escape(told)}"', 1))
 
 
-def png(figure: Figure, told: str, dpi: int = 110) -> Markup:
-    """A figure as an image within the page, in 256 colours: enough for a hillshade."""
+def picture(figure: Figure, told: str, dpi: int = 130) -> Markup:
+    """A figure as an image within the page, as WebP: a fifth of PNG's bytes."""
     buffer, small = io.BytesIO(), io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=dpi)
+    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches="tight", pad_inches=0.05)
     with Image.open(buffer) as image:
-        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(small, format="png", optimize=True)
+        image.convert("RGB").save(small, format="webp", quality=90)
     data = base64.b64encode(small.getvalue()).decode()
-    return Markup(f'<img alt="{Markup.escape(told)}" src="data:image/png;base64,{data}">')
+    return Markup(f'<img alt="{Markup.escape(told)}" src="data:image/webp;base64,{data}">')
 
 
-__all__ = ["Markup", "png", "svg"]
+__all__ = ["Markup", "picture", "svg"]

@@ -6,33 +6,44 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from discjump import Terrain
+from discjump.envs import relief
 from discjump_training import picture
 from discjump_training.judge.judged import Judged
 from discjump_training.judge.page import charts
-from discjump_training.judge.page.embed import Markup, png
+from discjump_training.judge.page.embed import Markup
+from discjump_training.judge.page.embed import picture as embedded
+
+#: Metres shown around the paths.
+MARGIN = 35.0
+#: Of the ground, along a side.
+PIXELS = 520
 
 
 def command_map(terrain: Terrain, drawn: list[Judged], row: int, arrival_radius: float) -> Markup:
-    """One episode from above: hillshade, contours every 10 m, start, goal, and everybody's path: its inside
+    """One episode from above: relief, contours every 10 m, start, goal, and everybody's path: its inside
     coloured by speed, its rim by policy.
     """
-    figure = Figure(figsize=(6.2, 5.6), layout="constrained")
+    figure = Figure(figsize=(6.0, 5.2), layout="constrained")
     axes = figure.add_subplot()
     first = drawn[0].episodes
     goal = first.goals[row]
     seen = np.concatenate([one.episodes.paths[row][:, :2] for one in drawn] + [goal[None, :2]])
     low, high = seen.min(axis=0), seen.max(axis=0)
-    side = (high - low).max() + 2.0 * picture.MARGIN
-    picture.ground(axes, terrain, (low + high) / 2.0 - side / 2.0, side)
+    side = float((high - low).max() + 2.0 * MARGIN)
+    west, south = ((low + high) / 2.0 - side / 2.0).tolist()
+    ground = relief.shaded(terrain, west, south, side, PIXELS) / 255.0
+    axes.imshow(
+        np.clip(ground, 0.0, 1.0), extent=(west, west + side, south, south + side), interpolation="none"
+    )
     for one in reversed(drawn):
         path = one.episodes.paths[row]
         points = path[:, :2]
-        axes.plot(*points.T, color=charts.colour(drawn, one.name), linewidth=5.0, solid_capstyle="round")
+        axes.plot(*points.T, color=charts.colour(drawn, one.name), linewidth=5.5, solid_capstyle="round")
         lines = LineCollection(
             list(np.stack([points[:-1], points[1:]], axis=1)),
             cmap=picture.COLOURS,
             norm=picture.SPEEDS,
-            linewidth=2.4,
+            linewidth=2.6,
         )
         lines.set_array(path[1:, 3])
         lines.set_zorder(2.5)
@@ -51,4 +62,4 @@ def command_map(terrain: Terrain, drawn: list[Judged], row: int, arrival_radius:
     bar = figure.colorbar(colours, ax=axes, fraction=0.04, pad=0.02)
     bar.set_label("speed, m/s", fontsize=8)
     bar.ax.tick_params(labelsize=7)
-    return png(figure, f"Command map of episode {row}: paths coloured by speed")
+    return embedded(figure, f"Command map of episode {row}: paths coloured by speed")
