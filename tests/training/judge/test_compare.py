@@ -1,6 +1,7 @@
 """Two policies on the same episodes, and scores beside a planner's."""
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -137,9 +138,10 @@ def test_plans_that_do_not_fit(tmp_path):
         planner.load(path, conditions)
     with pytest.raises(TrainingError, match="is about the course ski-public-v1, not ski-held-out-v1"):
         planner.load(plan(path, course="ski-public-v1"), conditions)
-    for episodes in ([], [{"episode": 0, "seconds": 0.0, "success": True}]):
+    wrong: Any
+    for wrong in ([], [{"episode": 0, "seconds": 0.0, "success": True}]):
         with pytest.raises(TrainingError, match="has no episodes, one twice, or times that are none"):
-            planner.load(plan(path, episodes=episodes), conditions)
-    for episodes in (3, [{"episode": 0}]):
+            planner.load(plan(path, episodes=wrong), conditions)
+    for wrong in (3, [{"episode": 0}]):
         with pytest.raises(TrainingError, match=r"plan\.json is no result of discjump plan"):
-            planner.load(plan(path, episodes=episodes), conditions)
+            planner.load(plan(path, episodes=wrong), conditions)

@@ -57,10 +57,13 @@ def test_options_of_the_environment(play):
     wide.options = {"fan_bearings": [0.0], "fan_ranges": [10.0], "landing": False}  # type: ignore[attr-defined]
     wide.batched = True  # type: ignore[attr-defined]
     play(wide, episodes=1)
-    plain = []
-    play(
-        lambda observations: plain.append(observations.shape[1]) or ahead_in_batches(observations), episodes=1
-    )
+    plain: list[int] = []
+
+    def usual(observations):
+        plain.append(observations.shape[1])
+        return ahead_in_batches(observations)
+
+    play(usual, episodes=1)
     assert set(sizes) != set(plain)
 
 

@@ -131,8 +131,9 @@ def test_forged_replays_are_refused(forge, reason, folder, tmp_path):
 
 def test_a_public_episode_must_be_where_the_course_says(folder, tmp_path):
     replay = replays.load(first(folder, PUBLIC))
-    moved = {**replay.header["reset"], "goal": [0.0, 0.0]}  # type: ignore[attr-defined]
-    forged = replay.changed(header={"reset": moved}).again().save(tmp_path / "forged.replay")  # type: ignore[attr-defined]
+    assert isinstance(replay, replays.EpisodeReplay)
+    moved = {**replay.header["reset"], "goal": [0.0, 0.0]}
+    forged = replay.changed(header={"reset": moved}).again().save(tmp_path / "forged.replay")
     assert "its placement is" in leaderboard([forged]).refused[0].reason
 
 

@@ -1,6 +1,7 @@
 """Models of stable-baselines3's algorithms and in ONNX files."""
 
 import sys
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -16,7 +17,7 @@ from discjump_training.judge import find
 from discjump_training.judge.policies import onnx, sb3
 
 TASK = "discjump/Ski-v0"
-ENV = {"n_envs": 2, "seed": 0, "threads": 1}
+ENV: dict[str, Any] = {"n_envs": 2, "seed": 0, "threads": 1}
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +30,7 @@ def ppo():
 
 @pytest.mark.parametrize("kind", [PPO, A2C, SAC, TD3])
 def test_any_algorithm_is_known_and_plays(kind, tmp_path, play):
-    options = {} if kind in (PPO, A2C) else {"actions": "box"}
+    options: dict[str, Any] = {} if kind in (PPO, A2C) else {"actions": "box"}
     made = kind("MlpPolicy", make_vec_env(TASK, **ENV, **options), policy_kwargs={"net_arch": [8]})
     path = tmp_path / "model.zip"
     made.save(path)

@@ -112,8 +112,8 @@ def test_a_ground_of_the_users(tmp_path, invoke, refused):
     seconds = {}
     for path in (flat, bowl):
         out = tmp_path / path.stem
-        asked = ("skier", "--no-baselines", "--no-page", "--episodes", 4, "--terrain", path, "--out", out)
-        result = invoke("evaluate", *asked, "--square-size", 10)
+        given = ("skier", "--no-baselines", "--no-page", "--episodes", 4, "--terrain", path, "--out", out)
+        result = invoke("evaluate", *given, "--square-size", 10)
         assert result.exit_code == 0, result.output
         data = json.loads((out / "evaluation.json").read_text())
         assert data["changes"]["terrain"].startswith(path.name)
