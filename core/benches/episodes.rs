@@ -5,12 +5,11 @@
 //! Random keys on generated maps; the widths take turns, call by call, with the same keys, so that the
 //! ratios of one run can be trusted. `--only lanes calls` plays one width and nothing else, for a profiler.
 
-use discjump_core::batch::{Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StepOutput};
-use discjump_core::observe::SkiObservation;
+use discjump_core::batch::{Autoreset, Environments, EnvironmentsSetup, ResetRequest, Rewards, StepOutput};
+use discjump_core::observe::Observation;
 use discjump_core::random::{Purpose, bits};
 use discjump_core::rules::Physics;
-use discjump_core::task::{ACTION_BINS, ActionKind, Actions, Reward, SkiTask};
-use discjump_core::terrain::mission::Area;
+use discjump_core::task::{ACTION_BINS, ActionKind, Actions, Grounds, Level, Pitch, Reward, TaskRules};
 use discjump_core::terrain::raindance::{Options, generate};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
 use std::sync::Arc;
@@ -27,7 +26,7 @@ struct Bench {
     frame_skip: u32,
     threads: usize,
     maps: Arc<Maps>,
-    areas: Vec<Area>,
+    pitches: Vec<Pitch>,
     actions: Vec<Vec<i8>>,
 }
 
@@ -42,26 +41,29 @@ struct Runner {
 impl Bench {
     /// The ski task with the options that the Python package has by default.
     fn runner(&self, lanes: usize) -> Option<Runner> {
-        let setup = SkiEnvironments {
+        let setup = EnvironmentsSetup {
             maps: self.maps.clone(),
-            areas: self.areas.clone(),
+            grounds: Grounds::Beacon,
+            pitches: self.pitches.clone(),
+            solids: Vec::new(),
+            ammo: 0,
             count: self.environments,
             fidelity: self.tier.clone(),
             armor: "light".into(),
             energy_pack: false,
             physics: Physics::default(),
             tick_ms: 32,
-            task: SkiTask {
+            task: TaskRules {
                 frame_skip: self.frame_skip,
                 time_limit: 1875,
                 arrival_radius: 8.0,
-                goal_distance: (300.0, 800.0),
-                start_speed: 20.0,
+                capture: false,
+                levels: vec![Level::beacons((300.0, 800.0), 20.0)],
                 turn_rate: 2.34375,
                 reward: Reward::default(),
             },
             actions: ActionKind::MultiDiscrete,
-            observation: SkiObservation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true)
+            observation: Observation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true)
                 .expect("a valid fan"),
             autoreset: Autoreset::NextStep,
             threads: Some(self.threads),
@@ -124,7 +126,7 @@ fn main() {
         frame_skip: number(2, "1") as u32,
         threads: number(3, "1"),
         maps: Arc::new(Maps::new(&fields).expect("maps of one size")),
-        areas: generated.iter().map(|g| g.mission.area).collect(),
+        pitches: generated.iter().map(|g| Pitch::bare(g.mission.area)).collect(),
         actions: (0..SETS).map(|set| (0..environments * 5).map(|k| key(set, k)).collect()).collect(),
     };
     if let Some(only) = only {

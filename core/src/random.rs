@@ -19,6 +19,10 @@ pub enum Purpose {
     Velocity = 4,
     /// The generator of Raindance-like terrain.
     Generator = 5,
+    /// How high an episode starts, and how high its marker floats.
+    Height = 6,
+    /// Whose flag is one's own.
+    Team = 7,
 }
 
 /// 64 uniform bits for one (seed, episode, purpose, counter): XXH3-64 of the four numbers,

@@ -6,7 +6,7 @@ mod common;
 
 use common::envs::{Envs, bits, ski};
 use discjump_core::batch::{
-    Autoreset, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput, StepOutput,
+    Autoreset, EnvironmentsSetup, ResetRequest, Rewards, Status, StatusOutput, StepOutput,
 };
 use discjump_core::task::{Actions, CourseRequest, Outcome};
 use glam::DVec2;
@@ -16,10 +16,10 @@ const TIERS: [&str; 5] = ["authentic", "reference", "swept", "fast", "engine"];
 const WALK: [i8; 5] = [2, 1, 0, 0, 3];
 
 /// A setup whose one episode goes straight north from rest: `metres` to the beacon.
-fn north(tier: &str, metres: f64, change: impl Fn(&mut SkiEnvironments)) -> Envs {
+fn north(tier: &str, metres: f64, change: impl Fn(&mut EnvironmentsSetup)) -> Envs {
     let mut setup = ski(1, tier);
     setup.autoreset = Autoreset::Disabled;
-    setup.task.start_speed = 0.0;
+    setup.task.levels[0].start_speed = 0.0;
     setup.task.arrival_radius = 20.0;
     change(&mut setup);
     let mut envs = Envs::new(setup);

@@ -16,9 +16,9 @@ mod common;
 use common::envs::{self, Envs};
 use common::setup;
 use core::fmt::Write;
-use discjump_core::batch::{Autoreset, RawInput, ResetRequest, SimulatorSetup, SkiEnvironments};
-use discjump_core::observe::SkiObservation;
-use discjump_core::task::SkiTask;
+use discjump_core::batch::{Autoreset, EnvironmentsSetup, RawInput, ResetRequest, SimulatorSetup};
+use discjump_core::observe::Observation;
+use discjump_core::task::{Level, Pitch, TaskRules};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::raindance::{Options, generate};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
@@ -47,17 +47,17 @@ fn keys(env: usize, decision: usize) -> [i8; 5] {
 /// Digest of all environments at the end, and of all that they returned.
 fn ski(field: &Heightfield, area: Area, fidelity: &str, lanes: Option<usize>) -> (String, String) {
     let base = envs::ski(COUNT, fidelity);
-    let mut envs = Envs::new(SkiEnvironments {
+    let mut envs = Envs::new(EnvironmentsSetup {
         maps: Maps::new(core::slice::from_ref(field)).unwrap().into(),
-        areas: vec![area],
-        task: SkiTask {
+        pitches: vec![Pitch::bare(area)],
+        task: TaskRules {
             time_limit: 1875,
-            goal_distance: (300.0, 800.0),
-            start_speed: 10.0,
+            capture: false,
+            levels: vec![Level::beacons((300.0, 800.0), 10.0)],
             turn_rate: 2.34375,
             ..base.task
         },
-        observation: SkiObservation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true).unwrap(),
+        observation: Observation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true).unwrap(),
         autoreset: Autoreset::NextStep,
         lanes,
         ..base

@@ -7,12 +7,14 @@ mod common;
 use common::envs::ski;
 use common::widths;
 use discjump_core::batch::{
-    Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StatusOutput, StepOutput,
+    Autoreset, Environments, EnvironmentsSetup, ResetRequest, Rewards, StatusOutput, StepOutput,
 };
 use discjump_core::random::{Purpose, bits};
-use discjump_core::task::{ACTION_BINS, ActionKind, Actions};
+use discjump_core::task::{ActionKind, Actions, Grounds, Level, Pitch};
+use discjump_core::solids::{Solid, Solids};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind};
+use glam::DVec3;
 use std::sync::Arc;
 
 /// Two maps of hills with steep faces.
@@ -25,10 +27,11 @@ fn maps(edge: Edge, surface: SurfaceKind) -> Arc<Maps> {
     Arc::new(Maps::new(&[field(12.0), field(30.0)]).unwrap())
 }
 
-fn setup(count: usize, fidelity: &str, edge: Edge, autoreset: Autoreset) -> SkiEnvironments {
+fn setup(count: usize, fidelity: &str, edge: Edge, autoreset: Autoreset) -> EnvironmentsSetup {
     let area = Area { min: [-100.0, -90.0], max: [110.0, 95.0] };
     let maps = maps(edge, SurfaceKind::Triangles);
-    let mut setup = SkiEnvironments { maps, areas: vec![area; 2], autoreset, ..ski(count, fidelity) };
+    let mut setup =
+        EnvironmentsSetup { maps, pitches: vec![Pitch::bare(area); 2], autoreset, ..ski(count, fidelity) };
     setup.task.time_limit = 70;
     setup
 }
@@ -44,7 +47,7 @@ struct Played {
 }
 
 impl Played {
-    fn new(setup: SkiEnvironments) -> Self {
+    fn new(setup: EnvironmentsSetup) -> Self {
         let n = setup.count;
         let mut batch = setup.build().unwrap();
         let mut observations = vec![0.0; n * batch.observation_size()];
@@ -90,13 +93,13 @@ fn draw(step: u64, k: usize) -> u64 {
 
 /// Plays the same actions in both and compares every bit as they go; returns how many episodes ended.
 fn agree(one: &mut Played, other: &mut Played, steps: u64, kind: ActionKind) -> usize {
-    let n = one.batch.len();
-    let mut ends = 0;
+    let (n, bins) = (one.batch.len(), one.batch.action_bins());
+    let (row, mut ends) = (bins.len(), 0);
     for step in 0..steps {
-        let choice = |k: usize| (draw(step / 3, k) % ACTION_BINS[k % 5] as u64) as i64;
-        let keys: Vec<i64> = (0..n * 5).map(choice).collect();
+        let choice = |k: usize| (draw(step / 3, k) % bins[k % row] as u64) as i64;
+        let keys: Vec<i64> = (0..n * row).map(choice).collect();
         let small: Vec<i8> = keys.iter().map(|&key| key as i8).collect();
-        let floats: Vec<f32> = (0..n * 5).map(|k| (draw(step / 3, k) % 13) as f32 / 6.0 - 1.0).collect();
+        let floats: Vec<f32> = (0..n * row).map(|k| (draw(step / 3, k) % 13) as f32 / 6.0 - 1.0).collect();
         // Either is as good as the other: both forms of the same keys are taken.
         let (mine, theirs) = match kind {
             ActionKind::MultiDiscrete => (Actions::Int64(&keys), Actions::Int8(&small)),
@@ -127,7 +130,7 @@ fn every_width_plays_the_same_episodes() {
                 let make = |lanes| {
                     let actions = kind;
                     let setup = setup(count, fidelity, edge, autoreset);
-                    Played::new(SkiEnvironments { lanes: Some(lanes), actions, ..setup })
+                    Played::new(EnvironmentsSetup { lanes: Some(lanes), actions, ..setup })
                 };
                 for lanes in widths().filter(|&lanes| lanes <= 16) {
                     let (mut one, mut many) = (make(1), make(lanes));
@@ -151,7 +154,7 @@ fn every_width_plays_the_same_episodes_on_bilinear_ground() {
     for (fidelity, edge) in [("authentic", Edge::Tile), ("swept", Edge::Clamp), ("fast", Edge::Void)] {
         let make = |lanes| {
             let maps = maps(edge, SurfaceKind::Bilinear);
-            Played::new(SkiEnvironments {
+            Played::new(EnvironmentsSetup {
                 lanes: Some(lanes),
                 maps,
                 ..setup(37, fidelity, edge, Autoreset::SameStep)
@@ -168,12 +171,57 @@ fn every_width_plays_the_same_episodes_on_bilinear_ground() {
     }
 }
 
+/// Goals in the air or on stands, with discs; the stands of the second map are elsewhere, and walls around them.
+fn armed(count: usize, fidelity: &str, grounds: Grounds, autoreset: Autoreset) -> EnvironmentsSetup {
+    let mut setup = setup(count, fidelity, Edge::Tile, autoreset);
+    let level = Level { start_height: 5.0, aside: 10.0, ..Level::beacons((10.0, 60.0), 20.0) };
+    setup.task.levels = vec![level, Level { from_stand: true, ..level }];
+    (setup.task.arrival_radius, setup.task.capture, setup.task.time_limit) = (4.0, true, 110);
+    (setup.grounds, setup.ammo) = (grounds, 3);
+    let stand = |x: f64, y: f64| DVec3::new(x, y, 5.0);
+    setup.pitches[0].stands = [stand(-20.0, 0.0), stand(20.0, 10.0)];
+    setup.pitches[1].stands = [stand(-5.0, -25.0), stand(0.0, 25.0)];
+    let walls = |pitch: &Pitch| {
+        let wall = |at: DVec3| Solid::cuboid("wall", DVec3::new(1.0, 6.0, 30.0), at + 4.0 * DVec3::X, 0.3);
+        Arc::new(Solids::new(&pitch.stands.map(wall), setup.maps.grid()).unwrap())
+    };
+    setup.solids = setup.pitches.iter().map(walls).collect();
+    setup
+}
+
+#[test]
+fn every_width_plays_the_same_episodes_with_discs_flags_and_solids() {
+    for fidelity in ["authentic", "swept", "fast"] {
+        for (grounds, autoreset, kind) in [
+            (Grounds::Marker, Autoreset::NextStep, ActionKind::MultiDiscrete),
+            (Grounds::Stands, Autoreset::SameStep, ActionKind::Box),
+            (Grounds::Stands, Autoreset::NextStep, ActionKind::MultiDiscrete),
+        ] {
+            let make = |lanes| {
+                let setup = armed(37, fidelity, grounds, autoreset);
+                Played::new(EnvironmentsSetup { lanes: Some(lanes), actions: kind, ..setup })
+            };
+            for lanes in widths().filter(|&lanes| lanes <= 16) {
+                let (mut one, mut many) = (make(1), make(lanes));
+                assert_eq!(many.batch.lanes(), lanes);
+                assert!(one.all() == many.all(), "after the reset");
+                let ends = agree(&mut one, &mut many, 60, kind);
+                assert!(ends >= 37, "{ends} ends are too few to test by");
+                let snapshot = one.batch.snapshot();
+                one.batch.restore(&many.batch.snapshot()).unwrap();
+                many.batch.restore(&snapshot).unwrap();
+                agree(&mut one, &mut many, 10, kind);
+            }
+        }
+    }
+}
+
 #[test]
 fn threads_and_lanes_of_a_batch_that_is_shared_out() {
     let count = 1100;
     let make = |threads, lanes| {
         let setup = setup(count, "authentic", Edge::Tile, Autoreset::SameStep);
-        Played::new(SkiEnvironments { threads: Some(threads), lanes, ..setup })
+        Played::new(EnvironmentsSetup { threads: Some(threads), lanes, ..setup })
     };
     for lanes in widths().filter(|&lanes| lanes <= 16) {
         let (mut one, mut shared) = (make(1, Some(1)), make(3, Some(lanes)));

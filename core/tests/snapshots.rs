@@ -10,7 +10,7 @@ mod common;
 use common::crowd::{play, simulator};
 use common::envs::{Envs, ski};
 use common::*;
-use discjump_core::batch::{Autoreset, SkiEnvironments};
+use discjump_core::batch::{Autoreset, EnvironmentsSetup};
 use discjump_core::random::{Purpose, bits};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
 
@@ -152,7 +152,7 @@ fn a_snapshot_of_another_layout_or_count_is_refused() {
     sim.restore(&other.build().unwrap().snapshot()).unwrap();
 }
 
-type Change = fn(&mut SkiEnvironments);
+type Change = fn(&mut EnvironmentsSetup);
 
 #[test]
 fn an_environments_snapshot_of_another_layout_or_count_is_refused() {
@@ -167,7 +167,7 @@ fn an_environments_snapshot_of_another_layout_or_count_is_refused() {
         ("reward", |s| s.task.reward.time = 0.0),
         ("terrain", |s| s.maps = Maps::new(&[rolling(), rolling()]).unwrap().into()),
         // The next episodes are drawn within it.
-        ("area", |s| s.areas[1].max[0] += 1.0),
+        ("area", |s| s.pitches[1].area.max[0] += 1.0),
     ];
     for (what, change) in changes {
         let mut setup = ski(2, "authentic");

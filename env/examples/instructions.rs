@@ -9,13 +9,15 @@
 //! the extension: compiled once, with the same features.
 
 use discjump_core::batch::{
-    Autoreset, Bodies, Environments, RawInput, ResetRequest, Rewards, SimulatorSetup, SkiEnvironments,
+    Autoreset, Bodies, Environments, EnvironmentsSetup, RawInput, ResetRequest, Rewards, SimulatorSetup,
     StepOutput,
 };
-use discjump_core::observe::SkiObservation;
+use discjump_core::observe::Observation;
 use discjump_core::random::{Purpose, bits, uniform};
 use discjump_core::rules::Physics;
-use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Actions, Reward, SkiTask};
+use discjump_core::task::{
+    ACTION_BINS, ACTION_SIZE, ActionKind, Actions, Grounds, Level, Pitch, Reward, TaskRules,
+};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::raindance::{Options, generate};
 use discjump_core::terrain::{Edge, Heightfield, Maps};
@@ -105,26 +107,29 @@ fn steps(calls: usize) -> String {
     let heights = first.heights().iter().map(|h| 0.8 * h).collect();
     let second =
         Heightfield::new(heights, 257, 257, 8.0, first.origin(), first.edge()).expect("valid heights");
-    let setup = SkiEnvironments {
+    let setup = EnvironmentsSetup {
         maps: Maps::new(&[first, second]).expect("maps of one grid").into(),
-        areas: vec![START; 2],
+        grounds: Grounds::Beacon,
+        pitches: vec![Pitch::bare(START); 2],
+        solids: Vec::new(),
+        ammo: 0,
         count: COUNT,
         fidelity: "authentic".into(),
         armor: "light".into(),
         energy_pack: false,
         physics: Physics::default(),
         tick_ms: 32,
-        task: SkiTask {
+        task: TaskRules {
             frame_skip: 1,
             time_limit: 1875,
             arrival_radius: 8.0,
-            goal_distance: (300.0, 800.0),
-            start_speed: 10.0,
+            capture: false,
+            levels: vec![Level::beacons((300.0, 800.0), 10.0)],
             turn_rate: 2.34375,
             reward: Reward::default(),
         },
         actions: ActionKind::MultiDiscrete,
-        observation: SkiObservation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true)
+        observation: Observation::new(&[0.0, 30.0, -30.0], &[10.0, 25.0, 50.0, 90.0], true)
             .expect("a valid fan"),
         autoreset: Autoreset::NextStep,
         threads: Some(1),

@@ -3,7 +3,7 @@
 //! * `terrain`: `Terrain`
 //! * `solids`: what stands on one
 //! * `simulator`: `Simulator`, bodies without a task
-//! * `ski`: `SkiBatch`, the ski episodes behind every gymnasium and SB3 environment
+//! * `task`: `TaskBatch`, the episodes behind every gymnasium and SB3 environment
 //! * `measure`: both stepped against the clock, without Python in the loop
 //! * `blast`: the explosion formulas for arrays
 //! * `physics`: the switches of a `Physics`
@@ -22,8 +22,8 @@ mod measure;
 mod physics;
 mod pools;
 mod simulator;
-mod ski;
 mod solids;
+mod task;
 mod terrain;
 
 use pyo3::prelude::*;
@@ -40,9 +40,9 @@ mod _native {
     #[pymodule_export]
     use crate::simulator::{Simulator, scenes};
     #[pymodule_export]
-    use crate::ski::SkiBatch;
-    #[pymodule_export]
     use crate::solids::load_mesh;
+    #[pymodule_export]
+    use crate::task::TaskBatch;
     #[pymodule_export]
     use crate::terrain::Terrain;
 }

@@ -2,9 +2,9 @@
 
 use crate::errors::refused;
 use crate::simulator::{INPUT_BYTES, Simulator, read_input};
-use crate::ski::SkiBatch;
+use crate::task::TaskBatch;
 use discjump_core::batch::{Environments, RawInput, ResetRequest, Rewards, StepOutput};
-use discjump_core::task::{ACTION_SIZE, Actions};
+use discjump_core::task::Actions;
 use numpy::{PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -40,22 +40,22 @@ impl Outputs {
     }
 }
 
-/// Seconds of `calls` steps with the actions (k, num_envs, 5) in turn, and with `parts` of each part of them,
+/// Seconds of `calls` steps with the actions (k, num_envs, size) in turn, and with `parts` of each part of them,
 /// summed over threads. What the batch keeps for Python does not follow: it is for nothing else afterwards.
 #[pyfunction]
 #[pyo3(signature = (batch, actions, calls, *, parts=false))]
 pub fn time_environments(
     py: Python<'_>,
-    mut batch: PyRefMut<'_, SkiBatch>,
+    mut batch: PyRefMut<'_, TaskBatch>,
     actions: PyReadonlyArray3<'_, i8>,
     calls: usize,
     parts: bool,
 ) -> PyResult<(f64, Vec<(&'static str, f64)>)> {
     let batch = &mut *batch.batch;
-    let n = batch.len();
-    if actions.shape()[0] == 0 || actions.shape()[1..] != [n, ACTION_SIZE] {
+    let (n, size) = (batch.len(), batch.action_bins().len());
+    if actions.shape()[0] == 0 || actions.shape()[1..] != [n, size] {
         return Err(PyValueError::new_err(format!(
-            "actions: expected shape (k, {n}, {ACTION_SIZE}) with k >= 1, got {:?}",
+            "actions: expected shape (k, {n}, {size}) with k >= 1, got {:?}",
             actions.shape()
         )));
     }
@@ -64,7 +64,7 @@ pub fn time_environments(
     batch.time_parts(parts);
     let seconds = py.detach(|| {
         let start = Instant::now();
-        for actions in actions.chunks_exact(n * ACTION_SIZE).cycle().take(calls) {
+        for actions in actions.chunks_exact(n * size).cycle().take(calls) {
             batch.step(Actions::Int8(actions), outputs.lend())?;
         }
         Ok(start.elapsed().as_secs_f64())
@@ -77,7 +77,7 @@ pub fn time_environments(
 /// Seconds of `calls` resets of one environment each, the environments in turn. The rows of the others are
 /// not observed again, as where a caller still has them.
 #[pyfunction]
-pub fn time_resets(py: Python<'_>, mut batch: PyRefMut<'_, SkiBatch>, calls: usize) -> PyResult<f64> {
+pub fn time_resets(py: Python<'_>, mut batch: PyRefMut<'_, TaskBatch>, calls: usize) -> PyResult<f64> {
     let batch = &mut *batch.batch;
     let n = batch.len();
     let mut observations = Outputs::new(batch).observations;

@@ -66,13 +66,18 @@ impl Terrain {
         Area { min, max: [min[0] + size.x, min[1] + size.y] }
     }
 
+    /// Where its flags stand, if it has a mission.
+    pub fn flag_stands(&self) -> Option<[[f64; 3]; 2]> {
+        self.mission.as_ref().map(|_| self.flag_stands)
+    }
+
     fn report(&self) -> PyResult<Report> {
         Report::of(self.heightfield.heights(), self.mission.as_ref())
             .map_err(|e| PyValueError::new_err(e.to_string()))
     }
 
     /// Ground under world points, in f64.
-    fn ground(&self, name: &str, x: f64, y: f64) -> PyResult<discjump_core::terrain::Ground<f64>> {
+    pub fn ground(&self, name: &str, x: f64, y: f64) -> PyResult<discjump_core::terrain::Ground<f64>> {
         let (local, _) = self
             .maps
             .to_local(DVec3::new(x, y, 0.0))

@@ -5,7 +5,7 @@ They are ours with one thing made wrong, at the interface that is verified.
 
 import numpy as np
 
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiVectorEnv
 
 GENERATOR = np.random.default_rng()
 """A process-wide generator, as a careless environment uses one."""

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 import discjump
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 from discjump.envs.options import SkiOptions
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
 
 from .play import SHORT, random_actions, same_bits
 

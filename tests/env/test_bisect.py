@@ -20,7 +20,7 @@ from discjump.bisect.contacts import contact_list
 from discjump.bisect.lockstep import differences
 from discjump.bisect.sides import SideError, split
 from discjump.bisect.start import changes, inputs_of, starting
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 from discjump.replays import EpisodeReplay, TickReplay, load, loads
 from discjump.replays.bare.play import Frame
 

@@ -8,8 +8,7 @@ import pytest
 import discjump
 from discjump.envs import canvas, command_map, relief
 from discjump.envs.command_map import CommandMap
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 
 from .play import SHORT, random_actions, same_bits
 

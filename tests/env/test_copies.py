@@ -15,8 +15,7 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import discjump
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 from discjump.sb3 import SharedInfos, make_vec_env
 
 from .play import SHORT, random_actions, same_bits

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 
 PAGE = Path(__file__).parents[2] / "core" / "docs" / "ski.md"
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from discjump.envs import infos
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 
 from .play import SHORT, random_actions
 

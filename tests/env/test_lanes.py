@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from discjump import Simulator, Terrain
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 
 from .play import SHORT, random_actions, same_bits
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import discjump
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiVectorEnv
 
 TOLERANCE = 2e-4  # float32 positions of hundreds of metres, and heights under them
 

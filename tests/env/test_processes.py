@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import discjump
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiVectorEnv
 
 from .play import SHORT, random_actions
 

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
 
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 from discjump.replays import EpisodeReplay, Recorder, VectorRecorder, load, record
 
 from .play import SHORT, random_actions, same_bits

@@ -139,7 +139,7 @@ def test_mistakes_are_explained(folder, tmp_path, arguments, message):
 
 NUDGE = """
 import numpy as np
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 from discjump import Simulator
 
 def step(self, action, step=SkiEnv.step):

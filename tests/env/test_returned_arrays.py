@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
 
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 
 from .play import SHORT, random_actions, same_bits
 

@@ -27,8 +27,8 @@ from stable_baselines3.common.vec_env import (
     VecNormalize,
 )
 
-from discjump.envs.ski import SkiEnv
-from discjump.sb3 import SkiVecEnv, make_vec_env
+from discjump.envs.named import SkiEnv
+from discjump.sb3 import TaskVecEnv, make_vec_env
 
 from .play import SHORT, random_actions, same_bits
 
@@ -284,7 +284,7 @@ def test_pictures():
 
 @pytest.mark.parametrize("env_id", [ID, f"discjump:{ID}"])
 def test_ids(env_id):
-    assert isinstance(make_vec_env(env_id, terrain_seeds=[0]), SkiVecEnv)
+    assert isinstance(make_vec_env(env_id, terrain_seeds=[0]), TaskVecEnv)
 
 
 def test_ppo_learns_and_is_evaluated():

@@ -11,7 +11,7 @@ from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 
 import discjump  # noqa: F401  (registers the ids)
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 
 from .play import SHORT, random_actions, same_bits
 

@@ -11,8 +11,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 import discjump
 from discjump import terrains
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 from discjump.sb3 import make_vec_env
 
 from .play import SHORT, random_actions, same_bits

@@ -12,7 +12,7 @@ import pytest
 
 import discjump
 from discjump import terrains
-from discjump.envs.ski import SkiEnv
+from discjump.envs.named import SkiEnv
 
 from .play import same_bits
 

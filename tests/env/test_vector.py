@@ -16,8 +16,7 @@ from gymnasium.error import ResetNeeded
 from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
 
 import discjump  # noqa: F401
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 
 from .play import SHORT, random_actions, same_bits
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import discjump
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiVectorEnv
 
 FILE = Path(__file__).with_name("digests.json")
 TERRAIN_SEEDS = (0, 1, 7, 10_000, 2**64 - 1)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import discjump
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiVectorEnv
 
 from .regenerate import NUM_ENVS, actions
 

@@ -9,11 +9,12 @@ use super::stage::{Body, Stage};
 use crate::input::Input;
 use crate::movement::Movement;
 use crate::player::Player;
-use crate::real::{Int, Mask, Real, Scalar, V3};
+use crate::real::{Int, Mask, Real, Scalar, V3, Work};
 use crate::rules::Rules;
 use crate::scene::Scene;
 use crate::terrain::Surface;
 use crate::tick::{go, push};
+use core::marker::PhantomData;
 
 /// Players that are ticked side by side, where they have lanes: enough to fill the blocks that the late
 /// ones are gathered into, few enough to stay in the first cache.
@@ -33,10 +34,41 @@ pub(super) const fn passes<M: Movement, R: Real>() -> bool {
     M::PASSES_FROM <= R::LANES
 }
 
+/// Ticks of players who are alone in their worlds, with the same inputs.
+struct PlayAlone<'a, S: Scene, M: Movement, R: Real> {
+    stage: &'a Stage<'a, R::Scalar>,
+    bodies: &'a mut [Body<S, R>],
+    inputs: &'a [Input<R>],
+    ticks: u32,
+    movement: PhantomData<M>,
+}
+
+impl<S: Scene, M: Movement, R: Real> Work for PlayAlone<'_, S, M, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for _ in 0..self.ticks {
+            self.stage.tick_alone::<S, M, R>(self.bodies, self.inputs);
+        }
+    }
+}
+
 impl<T: Scalar> Stage<'_, T> {
+    /// Ticks of at most [`together`] blocks. Compiled once for each scene, tier and lane width, whoever calls.
+    #[inline(never)]
+    pub(super) fn play_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
+        &self,
+        bodies: &mut [Body<S, R>],
+        inputs: &[Input<R>],
+        ticks: u32,
+    ) {
+        R::enter(PlayAlone::<S, M, R> { stage: self, bodies, inputs, ticks, movement: PhantomData });
+    }
+
     /// A tick of at most [`together`] blocks.
     #[inline(always)]
-    pub(super) fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
+    fn tick_alone<S: Scene, M: Movement, R: Real<Scalar = T>>(
         &self,
         bodies: &mut [Body<S, R>],
         inputs: &[Input<R>],

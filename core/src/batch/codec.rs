@@ -76,20 +76,6 @@ pub(super) fn write_place<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, ou
     place(maps, p).to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
 }
 
-/// Appends a player's public state: his world position (three f64), then his other fields.
-pub(super) fn write_state<S: Scene, T: Scalar>(maps: &Maps, p: &Player<S, T>, out: &mut Vec<u8>) {
-    write_place(maps, p, out);
-    write_player(p, false, out);
-}
-
-/// Reads a player's fields over `p`.
-///
-/// # Panics
-/// If there are too few bytes: callers check.
-pub(super) fn read_player<S: Scene, T: Scalar>(p: &mut Player<S, T>, place: bool, bytes: &[u8]) {
-    visit(p, &mut Reader(bytes), place);
-}
-
 /// The fields of a body: with `whole` everything, as in a snapshot; else the public state without the
 /// world position.
 pub(super) fn body_fields<S: Scene, T: Scalar>(whole: bool) -> Vec<Field> {

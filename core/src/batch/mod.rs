@@ -15,7 +15,7 @@ mod stage;
 
 #[cfg(feature = "ski")]
 pub use environment::{
-    Autoreset, Environments, LifeStage, ResetRequest, Rewards, SkiEnvironments, Status, StatusOutput,
+    Autoreset, Environments, EnvironmentsSetup, LifeStage, ResetRequest, Rewards, Status, StatusOutput,
     StepOutput,
 };
 pub use neighbourhood::Contact;

@@ -18,6 +18,7 @@ use crate::solids::Solids;
 use crate::terrain::{Maps, Surface};
 use crate::tick::{go, look, push};
 use glam::DVec2;
+use std::sync::Arc;
 
 /// A player and what he has fired.
 #[derive(Clone, Copy, Debug)]
@@ -72,8 +73,8 @@ const STEP_UP: f64 = 1.0;
 pub(super) struct Stage<'a, T: Scalar> {
     pub(super) surface: Surface<'a, T>,
     pub(super) maps: &'a Maps,
-    /// None where the scene models none, or none stand.
-    pub(super) solids: Option<&'a Solids>,
+    /// What stands on each map; one for all of them, or none where the scene models none or none stand.
+    solids: &'a [Arc<Solids>],
     pub(super) rules: &'a Rules<T>,
     pub(super) arsenal: &'a Arsenal<T>,
     range: Range,
@@ -97,7 +98,7 @@ struct Range {
 impl<'a, T: Scalar> Stage<'a, T> {
     pub(super) fn new(
         maps: &'a Maps,
-        solids: Option<&'a Solids>,
+        solids: &'a [Arc<Solids>],
         rules: &'a Rules<T>,
         arsenal: &'a Arsenal<T>,
     ) -> Self {
@@ -112,11 +113,18 @@ impl<'a, T: Scalar> Stage<'a, T> {
         Self { surface: maps.surface::<T>(), maps, solids, rules, arsenal, range }
     }
 
+    /// What stands on the map that an offset belongs to.
+    #[inline(always)]
+    fn solids_of(&self, map: i32) -> Option<&'a Solids> {
+        let at = if self.solids.len() > 1 { self.maps.index(map) } else { 0 };
+        self.solids.get(at).map(AsRef::as_ref)
+    }
+
     /// Everything after the trigger, for one player near a solid. Rare, and long: one copy of it serves
     /// every lane width.
     #[inline(never)]
     pub(super) fn play_near<S: Scene, M: Movement>(&self, body: &mut Body<S, T>, input: &Input<T>) {
-        let world = self.around(&[], 0);
+        let world = self.around(body.player.map, &[], 0);
         self.move_among::<S, M>(&mut body.player, input, &world);
         self.land(body, &world);
     }
@@ -166,7 +174,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
             let Some(slots) = bodies[shooter].arms.as_ref().map(|arms| arms.slots) else { return };
             for shot in slots.iter().filter(|shot| shot.burst()) {
                 for (me, body) in bodies.iter_mut().enumerate() {
-                    let world = self.around(stands, me);
+                    let world = self.around(body.player.map, stands, me);
                     self.suffer(&mut body.player, shot, &world);
                 }
             }
@@ -174,8 +182,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
     }
 
     /// The world around one of its players, with all that stands.
-    pub(super) fn around<'b>(&'b self, stands: &'b [Stand], me: usize) -> Neighbourhood<'b, T> {
-        Neighbourhood { stage: self, solids: self.solids, stands, me, log: None }
+    pub(super) fn around<'b>(&'b self, map: i32, stands: &'b [Stand], me: usize) -> Neighbourhood<'b, T> {
+        Neighbourhood { stage: self, solids: self.solids_of(map), stands, me, log: None }
     }
 
     /// The same, without solids that neither he nor his projectiles can reach within the tick.
@@ -185,7 +193,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         stands: &'b [Stand],
         me: usize,
     ) -> Neighbourhood<'b, T> {
-        let solids = if self.near_solids(body) { self.solids } else { None };
+        let solids = if self.near_solids(body) { self.solids_of(body.player.map) } else { None };
         Neighbourhood { stage: self, solids, stands, me, log: None }
     }
 
@@ -238,12 +246,12 @@ impl<'a, T: Scalar> Stage<'a, T> {
         burst: R::Mask,
     ) {
         let at = seen_from(p, &shot.place(p.map), &self.surface);
-        if S::SOLIDS && self.solids.is_some() {
+        if S::SOLIDS && !self.solids.is_empty() {
             // Most bursts are too far away to be felt, whatever they see.
             let (_, felt) = meets(p, at, burst, &self.arsenal.explosive, self.rules);
             for lane in (0..R::LANES).filter(|&lane| felt.lane(lane)) {
                 let mut one = p.lane(lane);
-                let world = self.around(&[], 0);
+                let world = self.around(one.map, &[], 0);
                 self.suffer(&mut one, &shot.lane(lane), &world);
                 p.set_lane(lane, &one);
             }
@@ -271,7 +279,7 @@ impl<'a, T: Scalar> Stage<'a, T> {
         explosive: &Explosive<T>,
         world: &Neighbourhood<'_, T>,
     ) {
-        let coverage = if self.solids.is_some() {
+        let coverage = if !self.solids.is_empty() {
             let from = Place { position: eye, ..p.place() };
             let blocked = |point: V3<T>| world.line(&from, point - eye, true).hit;
             let free = body_points(p, self.rules).into_iter().filter(|&point| !blocked(point)).count();
@@ -289,22 +297,21 @@ impl<'a, T: Scalar> Stage<'a, T> {
         if !S::SOLIDS {
             return near;
         }
-        let Some(solids) = self.solids else { return near };
-        let p = &body.player;
-        if R::LANES > 1 && self.all_beyond(solids, body) {
+        if self.solids.is_empty() {
             return near;
         }
-        self.mark_near(solids, (R::Mask::splat(true), self.range.tick), &p.place(), p.velocity, &mut near);
+        let p = &body.player;
+        if R::LANES > 1
+            && let [solids] = self.solids
+            && self.all_beyond(solids, body)
+        {
+            return near;
+        }
+        self.mark_near((R::Mask::splat(true), self.range.tick), &p.place(), p.velocity, &mut near);
         for shot in body.arms.as_ref().iter().flat_map(|arms| &arms.slots) {
             let flying = shot.flying();
             if flying.any() {
-                self.mark_near(
-                    solids,
-                    (flying, self.disc_time()),
-                    &shot.place(p.map),
-                    shot.velocity,
-                    &mut near,
-                );
+                self.mark_near((flying, self.disc_time()), &shot.place(p.map), shot.velocity, &mut near);
             }
         }
         near
@@ -350,14 +357,16 @@ impl<'a, T: Scalar> Stage<'a, T> {
     #[inline(always)]
     fn mark_near<R: Real<Scalar = T>>(
         &self,
-        solids: &Solids,
         (chosen, time): (R::Mask, f64),
         at: &Place<R>,
         velocity: V3<R>,
         near: &mut R::Mask,
     ) {
         let mut candidates = chosen;
-        if R::LANES > 1 {
+        // Lanes on several maps are asked one by one.
+        if R::LANES > 1
+            && let [solids] = self.solids
+        {
             let maybe = solids.may_be_near::<R>(self.range.centre, at.position, self.reach(velocity, time));
             candidates = chosen.and(home(at).not().or(maybe));
         }
@@ -365,7 +374,8 @@ impl<'a, T: Scalar> Stage<'a, T> {
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize;
             bits &= bits - 1;
-            if self.reaches(solids, time, &at.lane(lane), velocity.lane(lane)) {
+            let (at, velocity) = (at.lane(lane), velocity.lane(lane));
+            if self.solids_of(at.map).is_some_and(|solids| self.reaches(solids, time, &at, velocity)) {
                 near.set_lane(lane, true);
             }
         }

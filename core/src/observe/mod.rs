@@ -1,11 +1,11 @@
 //! What an agent sees: one row of float32 per player, and the documented layout of that row.
 
 mod landing;
+mod observation;
 mod rows;
-mod ski;
 
+pub use observation::{CLIP, LayoutField, Observation, Seen};
 pub use rows::Columns;
-pub use ski::{CLIP, LayoutField, SkiObservation};
 
 use crate::real::Real;
 use crate::terrain::{Ground, Surface};

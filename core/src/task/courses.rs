@@ -1,9 +1,38 @@
-//! Where an episode starts and where its beacon stands: counted draws, or what the user asked for.
+//! Where an episode starts and where its goal is: counted draws, or what the user asked for.
 
+use super::rules::Level;
 use crate::error::{InputError, refuse};
 use crate::random::{Purpose, index, uniform};
 use crate::terrain::mission::Area;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+
+/// Where episodes take place on one map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pitch {
+    /// The area that they are drawn in.
+    pub area: Area,
+    /// Where the two flags stand, world positions, m; at the origin where there are none.
+    pub stands: [DVec3; 2],
+}
+
+impl Pitch {
+    /// An area without flags.
+    #[must_use]
+    pub fn bare(area: Area) -> Self {
+        Self { area, stands: [DVec3::ZERO; 2] }
+    }
+}
+
+/// What kind of course is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grounds {
+    /// A beacon on the ground.
+    Beacon,
+    /// A marker over the start.
+    Marker,
+    /// The flags of a mission.
+    Stands,
+}
 
 /// What a user may fix of an episode; the rest is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,8 +41,10 @@ pub struct CourseRequest {
     pub start: Option<DVec2>,
     /// Height of the start; on the ground where absent.
     pub height: Option<f64>,
-    /// World position of the beacon, m.
+    /// World position of the goal, m.
     pub goal: Option<DVec2>,
+    /// Height of a marker; drawn where absent.
+    pub goal_height: Option<f64>,
     /// Which map of the pool.
     pub map: Option<usize>,
 }
@@ -25,10 +56,18 @@ pub struct Course {
     pub map: usize,
     /// World position of the start, m.
     pub start: DVec2,
-    /// Height of the start; on the ground where absent.
+    /// Height of the start; `above` the ground where absent.
     pub height: Option<f64>,
-    /// World position of the beacon, m.
+    /// Height of the start over the ground, m.
+    pub above: f64,
+    /// World position of the goal, m.
     pub goal: DVec2,
+    /// Height of the goal; `rise` over the ground at the start where absent.
+    pub goal_height: Option<f64>,
+    /// See there, m.
+    pub rise: f64,
+    /// Whose flag it is: the number of his own.
+    pub team: usize,
     /// View yaw at the start, radians.
     pub yaw: f64,
     /// Velocity at the start, m/s.
@@ -38,34 +77,76 @@ pub struct Course {
 /// Draws tried before the fallback across the area's diagonal.
 const TRIES: u32 = 64;
 
-/// Draws an episode: its map; start and beacon inside the map's area, the beacon at a distance
-/// uniform in `distance`; any yaw; at rest in half of the episodes, else with a horizontal velocity up
-/// to `start_speed`. Where no draw of 64 fits the area, the course runs along its diagonal.
+/// Draws an episode: its map; start and goal inside the map's area; any yaw; at rest in half of the episodes, else
+/// with a horizontal velocity up to the level's `start_speed`.
+///
+/// A beacon stands at a distance uniform in the level's; where no draw of 64 fits the area, the course runs
+/// along its diagonal. A marker floats over a start that in half of the episodes is on the ground, else up to
+/// `start_height` above it: at a height over the ground there uniform in the level's distances, up to `aside` off. In
+/// a mission either team's, the start is the own flag stand, with the view to the enemy's, or a place within the
+/// area at a distance uniform in the level's from the enemy flag.
 ///
 /// # Errors
 /// If the request names a map that is not there.
 pub fn draw_course(
     seed: u64,
     episode: u64,
-    areas: &[Area],
-    distance: (f64, f64),
-    start_speed: f64,
+    grounds: Grounds,
+    pitches: &[Pitch],
+    level: &Level,
     request: &CourseRequest,
 ) -> Result<Course, InputError> {
     let map = match request.map {
-        Some(map) if map < areas.len() => map,
-        Some(map) => refuse!("terrain: expected an index from 0 to {}, got {map}", areas.len() - 1),
-        None => index(seed, episode, Purpose::Terrain, 0, areas.len()),
+        Some(map) if map < pitches.len() => map,
+        Some(map) => refuse!("terrain: expected an index from 0 to {}, got {map}", pitches.len() - 1),
+        None => index(seed, episode, Purpose::Terrain, 0, pitches.len()),
     };
-    let area = areas[map];
-    let (start, goal) = draw_ends(seed, episode, &area, distance, request);
+    let Pitch { area, stands } = pitches[map];
     let draw = |purpose, counter, low, high| uniform(seed, episode, purpose, counter, low, high);
     let pi = core::f64::consts::PI;
-    let yaw = draw(Purpose::Velocity, 0, -pi, pi);
+    let mut yaw = draw(Purpose::Velocity, 0, -pi, pi);
     let heading = draw(Purpose::Velocity, 1, -pi, pi);
-    let speed = draw(Purpose::Velocity, 2, -start_speed, start_speed).max(0.0);
-    let velocity = direction(heading) * speed;
-    Ok(Course { map, start, height: request.height, goal, yaw, velocity })
+    let speed = draw(Purpose::Velocity, 2, -level.start_speed, level.start_speed).max(0.0);
+    let mut velocity = direction(heading) * speed;
+    let (mut above, mut rise, mut team) = (0.0, 0.0, 0);
+    let (mut height, mut goal_height) = (request.height, request.goal_height);
+    let (start, goal);
+    match grounds {
+        Grounds::Beacon => {
+            (start, goal) = draw_ends(seed, episode, &area, level.goal_distance, request);
+        }
+        Grounds::Marker => {
+            above = draw(Purpose::Height, 0, -level.start_height, level.start_height).max(0.0);
+            rise = draw(Purpose::Height, 1, level.goal_distance.0, level.goal_distance.1);
+            let (low, high) = (DVec2::from(area.min), DVec2::from(area.max));
+            let place =
+                DVec2::new(draw(Purpose::Start, 0, low.x, high.x), draw(Purpose::Start, 1, low.y, high.y));
+            // As many in every part of the disc as its area is large.
+            let off = direction(draw(Purpose::Goal, 0, -pi, pi))
+                * (level.aside * draw(Purpose::Goal, 1, 0.0, 1.0).sqrt());
+            start = request.start.or(request.goal).unwrap_or(place);
+            goal = request.goal.unwrap_or(start + off);
+        }
+        Grounds::Stands => {
+            team = index(seed, episode, Purpose::Team, 0, 2);
+            let (own, enemy) = (stands[team], stands[1 - team]);
+            goal = enemy.truncate();
+            goal_height = Some(enemy.z);
+            if let Some(place) = request.start {
+                start = place;
+            } else if level.from_stand {
+                start = own.truncate();
+                height = Some(own.z);
+                let ahead = (enemy - own).truncate();
+                yaw = libm::atan2(-ahead.x, ahead.y);
+                velocity = DVec2::ZERO;
+            } else {
+                let towards = CourseRequest { goal: Some(goal), ..CourseRequest::default() };
+                start = draw_ends(seed, episode, &area, level.goal_distance, &towards).0;
+            }
+        }
+    }
+    Ok(Course { map, start, height, above, goal, goal_height, rise, team, yaw, velocity })
 }
 
 /// A horizontal unit vector; libm's, so that it has the same bits everywhere.

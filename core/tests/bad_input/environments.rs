@@ -2,17 +2,17 @@
 
 use crate::common::envs::{Envs, ski};
 use crate::{INF, NAN, refused};
-use discjump_core::batch::{Autoreset, ResetRequest, Rewards, SkiEnvironments, StatusOutput, StepOutput};
+use discjump_core::batch::{Autoreset, EnvironmentsSetup, ResetRequest, Rewards, StatusOutput, StepOutput};
 use discjump_core::error::InputError;
-use discjump_core::observe::SkiObservation;
-use discjump_core::task::{ActionKind, Actions, CourseRequest};
+use discjump_core::observe::Observation;
+use discjump_core::task::{ActionKind, Actions, CourseRequest, Pitch};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::{Edge, Heightfield, Maps};
 use glam::DVec2;
 
 #[test]
 fn environments() {
-    let build = |change: fn(&mut SkiEnvironments)| {
+    let build = |change: fn(&mut EnvironmentsSetup)| {
         let mut s = ski(2, "authentic");
         change(&mut s);
         s.build()
@@ -30,27 +30,31 @@ fn environments() {
     refused(build(|s| s.task.time_limit = -5), "time_limit", "-5");
     refused(build(|s| s.task.arrival_radius = 0.0), "arrival_radius", "0");
     refused(build(|s| s.task.arrival_radius = NAN), "arrival_radius", "NaN");
-    refused(build(|s| s.task.goal_distance = (5.0, 50.0)), "goal_distance", "(5, 50)");
-    refused(build(|s| s.task.goal_distance = (50.0, 40.0)), "goal_distance", "(50, 40)");
-    refused(build(|s| s.task.goal_distance = (NAN, 40.0)), "goal_distance", "NaN");
-    refused(build(|s| s.task.goal_distance = (40.0, INF)), "goal_distance", "inf");
-    refused(build(|s| s.task.goal_distance = (600.0, 700.0)), "goal_distance", "600");
-    refused(build(|s| s.task.start_speed = -1.0), "start_speed", "-1");
-    refused(build(|s| s.task.start_speed = NAN), "start_speed", "NaN");
+    refused(build(|s| s.task.levels[0].goal_distance = (5.0, 50.0)), "goal_distance", "(5, 50)");
+    refused(build(|s| s.task.levels[0].goal_distance = (50.0, 40.0)), "goal_distance", "(50, 40)");
+    refused(build(|s| s.task.levels[0].goal_distance = (NAN, 40.0)), "goal_distance", "NaN");
+    refused(build(|s| s.task.levels[0].goal_distance = (40.0, INF)), "goal_distance", "inf");
+    refused(build(|s| s.task.levels[0].goal_distance = (600.0, 700.0)), "goal_distance", "600");
+    refused(build(|s| s.task.levels[0].start_speed = -1.0), "start_speed", "-1");
+    refused(build(|s| s.task.levels[0].start_speed = NAN), "start_speed", "NaN");
     refused(build(|s| s.task.turn_rate = 0.0), "turn_rate", "0");
     refused(build(|s| s.task.turn_rate = INF), "turn_rate", "inf");
     refused(build(|s| s.task.reward.progress = NAN), "reward", "NaN");
     refused(build(|s| s.task.reward.arrival = -INF), "reward", "-inf");
     refused(build(|s| s.lanes = Some(3)), "lanes", "3");
-    refused(build(|s| s.areas.truncate(1)), "areas", "1");
-    refused(build(|s| s.areas[1].min[0] = NAN), "areas[1]", "NaN");
-    refused(build(|s| s.areas[0] = Area { min: [9.0, 0.0], max: [0.0, 900.0] }), "areas[0]", "[9.0, 0.0]");
-    refused(build(|s| s.areas[1].max[1] = 1e9), "areas[1]", "1000000000.0");
-    refused(SkiObservation::new(&[181.0], &[5.0], true), "fan_bearings", "181");
-    refused(SkiObservation::new(&[NAN], &[5.0], true), "fan_bearings", "NaN");
-    refused(SkiObservation::new(&[0.0], &[-1.0], true), "fan_ranges", "-1");
-    refused(SkiObservation::new(&[0.0], &[INF], true), "fan_ranges", "inf");
-    refused(SkiObservation::new(&[0.0; 100], &[1.0; 100], true), "fan", "100 bearings");
+    refused(build(|s| s.pitches.truncate(1)), "areas", "1");
+    refused(build(|s| s.pitches[1].area.min[0] = NAN), "areas[1]", "NaN");
+    refused(
+        build(|s| s.pitches[0].area = Area { min: [9.0, 0.0], max: [0.0, 900.0] }),
+        "areas[0]",
+        "[9.0, 0.0]",
+    );
+    refused(build(|s| s.pitches[1].area.max[1] = 1e9), "areas[1]", "1000000000.0");
+    refused(Observation::new(&[181.0], &[5.0], true), "fan_bearings", "181");
+    refused(Observation::new(&[NAN], &[5.0], true), "fan_bearings", "NaN");
+    refused(Observation::new(&[0.0], &[-1.0], true), "fan_ranges", "-1");
+    refused(Observation::new(&[0.0], &[INF], true), "fan_ranges", "inf");
+    refused(Observation::new(&[0.0; 100], &[1.0; 100], true), "fan", "100 bearings");
 }
 
 /// Runs `call` on environments that have been played, and checks that it changes nothing.
@@ -183,13 +187,14 @@ fn a_start_beyond_a_void_map() {
     let mut setup = ski(1, "authentic");
     let map = Heightfield::new(vec![5.0; 65 * 65], 65, 65, 8.0, [0.0; 2], Edge::Void).unwrap();
     setup.maps = Maps::new(&[map]).unwrap().into();
-    setup.areas.truncate(1);
+    setup.pitches.truncate(1);
     setup.autoreset = Autoreset::Disabled;
     // Episodes begin on the map, in the middle of a step too, or the area is refused.
     let mut beyond = ski(1, "authentic");
-    (beyond.maps, beyond.areas) = (setup.maps.clone(), vec![Area { min: [-1.0, 0.0], max: [512.0; 2] }]);
+    beyond.maps = setup.maps.clone();
+    beyond.pitches = vec![Pitch::bare(Area { min: [-1.0, 0.0], max: [512.0; 2] })];
     refused(beyond.build(), "areas[0]", "[-1.0, 0.0]");
-    setup.areas[0] = Area { min: [0.0; 2], max: [512.0; 2] };
+    setup.pitches[0].area = Area { min: [0.0; 2], max: [512.0; 2] };
     let mut envs = Envs::seeded(setup, &[4]);
     let course = CourseRequest { start: Some(DVec2::new(-1.0, 5.0)), ..CourseRequest::default() };
     let request = ResetRequest { courses: vec![course], ..ResetRequest::default() };

@@ -1,39 +1,44 @@
 //! Batches of small ski episodes, played by a script that sees nothing but its own row.
 
 use super::rolling;
-use discjump_core::batch::{Autoreset, Environments, ResetRequest, Rewards, SkiEnvironments, StepOutput};
-use discjump_core::observe::SkiObservation;
+use discjump_core::batch::{Autoreset, Environments, EnvironmentsSetup, ResetRequest, Rewards, StepOutput};
+use discjump_core::observe::Observation;
 use discjump_core::rules::Physics;
-use discjump_core::task::{ACTION_SIZE, ActionKind, Actions, Outcome, Reward, SkiTask};
+use discjump_core::task::{
+    ACTION_SIZE, ActionKind, Actions, Grounds, Level, Outcome, Pitch, Reward, TaskRules,
+};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::{Heightfield, Maps};
 
 /// Two tiling maps of 512 m, beacons 25 to 60 m away, 8 s to reach them.
-pub fn ski(count: usize, fidelity: &str) -> SkiEnvironments {
+pub fn ski(count: usize, fidelity: &str) -> EnvironmentsSetup {
     let first = rolling();
     let heights = first.heights().iter().map(|h| 0.5 * h).collect();
     let (rows, cols) = (first.rows(), first.cols());
     let second = Heightfield::new(heights, rows, cols, 8.0, first.origin(), first.edge()).unwrap();
-    SkiEnvironments {
+    EnvironmentsSetup {
         maps: Maps::new(&[first, second]).unwrap().into(),
-        areas: vec![Area { min: [50.0, 50.0], max: [450.0, 450.0] }; 2],
+        grounds: Grounds::Beacon,
+        pitches: vec![Pitch::bare(Area { min: [50.0, 50.0], max: [450.0, 450.0] }); 2],
+        solids: Vec::new(),
+        ammo: 0,
         count,
         fidelity: fidelity.into(),
         armor: "light".into(),
         energy_pack: false,
         physics: Physics::default(),
         tick_ms: 32,
-        task: SkiTask {
+        task: TaskRules {
             frame_skip: 4,
             time_limit: 250,
             arrival_radius: 8.0,
-            goal_distance: (25.0, 60.0),
-            start_speed: 20.0,
+            capture: false,
+            levels: vec![Level::beacons((25.0, 60.0), 20.0)],
             turn_rate: 2.0,
             reward: Reward::default(),
         },
         actions: ActionKind::MultiDiscrete,
-        observation: SkiObservation::new(&[-30.0, 0.0, 30.0], &[10.0, 40.0], true).unwrap(),
+        observation: Observation::new(&[-30.0, 0.0, 30.0], &[10.0, 40.0], true).unwrap(),
         autoreset: Autoreset::SameStep,
         threads: Some(1),
         lanes: None,
@@ -50,7 +55,7 @@ pub struct Envs {
 }
 
 impl Envs {
-    pub fn new(setup: SkiEnvironments) -> Self {
+    pub fn new(setup: EnvironmentsSetup) -> Self {
         let count = setup.count;
         let batch = setup.build().unwrap();
         let row = batch.observation_size();
@@ -63,7 +68,7 @@ impl Envs {
         }
     }
 
-    pub fn seeded(setup: SkiEnvironments, seeds: &[u64]) -> Self {
+    pub fn seeded(setup: EnvironmentsSetup, seeds: &[u64]) -> Self {
         let mut envs = Self::new(setup);
         envs.reset(&ResetRequest { seeds: seeds.to_vec(), ..ResetRequest::default() });
         envs

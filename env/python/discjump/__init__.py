@@ -1,6 +1,6 @@
 """The movement of Tribes 1 (skiing, jetting, disc jumping), batched for reinforcement learning.
 
-    _native     the simulator, compiled from Rust: Terrain, Simulator, SkiBatch
+    _native     the simulator, compiled from Rust: Terrain, Simulator, TaskBatch
     simulator   bodies without a task: Simulator, Physics, Scene, INPUT, STATE
     solids      what stands on a terrain: Solid
     explosions  how a blast's push falls off: knockback
@@ -27,6 +27,7 @@ import gymnasium
 
 from discjump import terrains as terrains  # says how terrains are copied and pickled
 from discjump._native import Terrain
+from discjump.envs.tasks import TASKS
 from discjump.explosions import knockback
 from discjump.simulator import INPUT, SCENES, STATE, Physics, Scene, Simulator
 from discjump.solids import Solid
@@ -47,8 +48,9 @@ __all__ = [
 ]
 
 # No max_episode_steps: the core ends episodes on exact ticks, and gymnasium's TimeLimit would count twice.
-gymnasium.register(
-    id="discjump/Ski-v0",
-    entry_point="discjump.envs.ski:SkiEnv",
-    vector_entry_point="discjump.envs.vector:SkiVectorEnv",
-)
+for _task in TASKS.values():
+    gymnasium.register(
+        id=_task.id,
+        entry_point=f"discjump.envs.named:{_task.classes[0]}",
+        vector_entry_point=f"discjump.envs.named:{_task.classes[1]}",
+    )

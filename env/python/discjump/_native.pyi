@@ -11,7 +11,7 @@ from discjump.solids import Solid
 
 __all__ = [
     "Simulator",
-    "SkiBatch",
+    "TaskBatch",
     "Terrain",
     "blast_falloff",
     "build",
@@ -114,12 +114,13 @@ class Simulator:
     def fail_next_step(self) -> None: ...
 
 @final
-class SkiBatch:
+class TaskBatch:
     def __new__(
         cls,
         terrains: Sequence[Terrain],
         num_envs: int,
         *,
+        grounds: str,
         fidelity: str,
         armor: str,
         energy_pack: bool,
@@ -130,16 +131,18 @@ class SkiBatch:
         turn_rate: float,
         time_limit: float,
         arrival_radius: float,
-        goal_distance: tuple[float, float],
-        start_speed: float,
-        reward: tuple[float, float, float],
+        levels: Sequence[tuple[tuple[float, float], float, float, float, bool]],
+        capture: bool,
+        ammo: int,
+        flags: tuple[tuple[float, float, float], tuple[float, float, float]] | None,
+        reward: tuple[float, float, float, float, float],
         fan_bearings: Sequence[float],
         fan_ranges: Sequence[float],
         landing: bool,
         autoreset: str,
         threads: int | None,
         lanes: int | None,
-    ) -> SkiBatch: ...
+    ) -> TaskBatch: ...
     @property
     def num_envs(self) -> int: ...
     @property
@@ -200,7 +203,7 @@ def build() -> dict[str, Any]: ...
 def load_mesh(path: str) -> tuple[list[list[float]], list[list[int]]]: ...
 def scenes() -> list[tuple[str, list[str], list[str]]]: ...
 def time_environments(
-    batch: SkiBatch, actions: NDArray[np.int8], calls: int, *, parts: bool = False
+    batch: TaskBatch, actions: NDArray[np.int8], calls: int, *, parts: bool = False
 ) -> tuple[float, list[tuple[str, float]]]: ...
 def time_players(simulator: Simulator, inputs: bytes, ticks: int, calls: int) -> float: ...
-def time_resets(batch: SkiBatch, calls: int) -> float: ...
+def time_resets(batch: TaskBatch, calls: int) -> float: ...

@@ -14,9 +14,10 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump import _check
-from discjump.envs.options import SkiOptions
-from discjump.envs.ski import checked_render_mode
-from discjump.envs.task import ObservationField, SkiTask, seeds_of
+from discjump.envs.options import TaskOptions
+from discjump.envs.single import checked_render_mode
+from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
+from discjump.envs.tasks import BY_ID
 
 try:
     from stable_baselines3.common.monitor import Monitor
@@ -26,8 +27,6 @@ except ImportError as error:
     raise ImportError(
         "discjump.sb3 needs stable-baselines3, which is not installed: pip install 'discjump[sb3]'"
     ) from error
-
-IDS = {"discjump/Ski-v0": SkiOptions}
 
 
 class SharedInfo(dict[str, Any]):
@@ -86,8 +85,8 @@ class SharedInfos(list[dict[str, Any]]):
         return list, (list(self),)
 
 
-class SkiVecEnv(VecEnv):
-    """Ski environments as a stable-baselines3 `VecEnv`.
+class TaskVecEnv(VecEnv):
+    """Environments of a task as a stable-baselines3 `VecEnv`.
 
     Episodes restart in the step that ends them. Python's work in a step grows with the episodes that ended,
     not with the environments: all others share one empty, read-only info, and steps that end no episode one
@@ -117,7 +116,7 @@ class SkiVecEnv(VecEnv):
     def __init__(
         self,
         num_envs: int,
-        options: SkiOptions,
+        options: TaskOptions,
         *,
         threads: int | None = None,
         lanes: int | None = None,
@@ -125,7 +124,7 @@ class SkiVecEnv(VecEnv):
     ) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.options = options
-        self._task = SkiTask(
+        self._task = TaskEnvs(
             options,
             num_envs,
             autoreset="same_step",
@@ -289,17 +288,17 @@ def make_vec_env(
     lanes: int | None = None,
     render_mode: str | None = None,
     **options: Any,
-) -> SkiVecEnv:
+) -> TaskVecEnv:
     """A stable-baselines3 vector environment.
 
     Args:
-        env_id: `discjump/Ski-v0`, also as `discjump:discjump/Ski-v0`.
+        env_id: id of a task, also as `discjump:discjump/Ski-v0`.
         n_envs: number of environments.
         seed: environment i has seed + i; None: drawn from the operating system.
         threads: threads that step the batch; None: one per core.
         lanes: players side by side in a register, as in `discjump.envs.vector`; no bit depends on it.
         render_mode: None or `rgb_array`.
-        **options: fields of `discjump.envs.options.SkiOptions`.
+        **options: fields of the task's options.
 
     Raises:
         TypeError, ValueError: naming the argument, what was expected and what came.
@@ -310,10 +309,14 @@ def make_vec_env(
     >>> rewards.dtype, infos
     (dtype('float32'), [{}, {}])
     """
-    name = _check.choice("env_id", str(env_id).removeprefix("discjump:"), tuple(IDS))
+    name = _check.choice("env_id", str(env_id).removeprefix("discjump:"), tuple(BY_ID))
     seeds = seeds_of(seed, _check.integer("n_envs", n_envs, 1, 2**24))
-    envs = SkiVecEnv(
-        n_envs, IDS[name].from_keywords(options), threads=threads, lanes=lanes, render_mode=render_mode
+    envs = TaskVecEnv(
+        n_envs,
+        BY_ID[name].options.from_keywords(options),
+        threads=threads,
+        lanes=lanes,
+        render_mode=render_mode,
     )
     if seeds is not None:
         envs._seeds = list(seeds)

@@ -53,7 +53,7 @@ class Result:
 class TimedVecEnv(VecEnvWrapper):
     """Counts the seconds spent stepping, so that the environment's share of the training time is known."""
 
-    def __init__(self, inner: discjump.sb3.SkiVecEnv) -> None:
+    def __init__(self, inner: discjump.sb3.TaskVecEnv) -> None:
         super().__init__(inner)
         self.inner = inner
         self.seconds = 0.0
@@ -122,7 +122,7 @@ def train(recipe: Recipe, seed: int, folder: Path, *, resume: bool = False, quie
         env.close()
 
 
-def make_env(recipe: Recipe, seed: int) -> discjump.sb3.SkiVecEnv:
+def make_env(recipe: Recipe, seed: int) -> discjump.sb3.TaskVecEnv:
     """The training environments of the run `seed`.
 
     Raises:

@@ -115,6 +115,8 @@ pub trait Environments: Send + Sync {
     fn observation_size(&self) -> usize;
     /// The layout of an observation.
     fn layout(&self) -> Vec<LayoutField>;
+    /// Choices of each number of a discrete action; as many numbers has any action.
+    fn action_bins(&self) -> &'static [i64];
     /// The kind of action that [`Environments::step`] takes.
     fn action_kind(&self) -> ActionKind;
     /// Begins episodes, and writes the observations of all environments, or, where the request says that

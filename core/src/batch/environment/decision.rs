@@ -1,10 +1,10 @@
 //! The ticks of one decision, and what they are worth.
 
 use super::super::alone::{MOST_BLOCKS, catch_up, passes};
-use super::block::Block;
+use super::block::{Block, Blocks};
 use super::episode::Phase;
 use super::*;
-use crate::task::seconds;
+use crate::task::{Verdict, seconds};
 use crate::terrain::Surface;
 use crate::tick::{go, look, push};
 
@@ -31,16 +31,34 @@ impl<R: Real> Decision<R> {
     pub(super) fn over(&self) -> R::Mask {
         self.arrived.or(self.died).or(self.timed_out)
     }
+
+    /// Counts a tick of those who are active, and how it ended.
+    #[inline(always)]
+    fn count(&mut self, active: &mut R::Mask, verdict: &Verdict<R::Mask>) {
+        self.ticks = R::Int::select(*active, self.ticks + R::Int::splat(1), self.ticks);
+        self.arrived = self.arrived.or(active.and(verdict.arrived));
+        self.died = self.died.or(active.and(verdict.died));
+        self.timed_out = self.timed_out.or(active.and(verdict.timed_out));
+        *active = active.and(self.over().not());
+    }
 }
 
-impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
+/// Someone who does not play, as he was.
+struct Frozen<S: Scene, K: Kind, T: Scalar> {
+    k: usize,
+    lane: usize,
+    body: Body<S, T>,
+    run: Run<K, T>,
+}
+
+impl<S: Scene, K: Kind, M: Movement, R: Real> Batch<S, K, M, R> {
     /// Plays the ticks. A player whose episode ends freezes for the rest of them.
     #[inline(always)]
     pub(super) fn decide(
         &self,
-        blocks: &mut [Block<S, R>],
+        stage: &Stage<'_, R::Scalar>,
+        (bodies, blocks): Blocks<'_, S, K, R>,
         inputs: &[Input<R>; MOST_BLOCKS],
-        surface: &Surface<'_, R::Scalar>,
         decisions: &mut [Decision<R>; MOST_BLOCKS],
     ) {
         let mut active = [R::Mask::splat(false); MOST_BLOCKS];
@@ -48,18 +66,35 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
             active[k] = block.episodes.are(Phase::Running);
             decisions[k].played = active[k];
         }
-        let mut from = [blocks[0].player.place(); MOST_BLOCKS];
+        if const { S::Arms::<R>::MODELED || S::SOLIDS } {
+            self.decide_armed(stage, (bodies, blocks), inputs, (decisions, &mut active));
+        } else {
+            self.decide_alone(stage, (bodies, blocks), inputs, (decisions, &mut active));
+        }
+    }
+
+    /// The ticks of players on bare ground without projectiles: physics and task in one.
+    #[inline(always)]
+    fn decide_alone(
+        &self,
+        stage: &Stage<'_, R::Scalar>,
+        (bodies, blocks): Blocks<'_, S, K, R>,
+        inputs: &[Input<R>; MOST_BLOCKS],
+        (decisions, active): (&mut [Decision<R>; MOST_BLOCKS], &mut [R::Mask; MOST_BLOCKS]),
+    ) {
+        let surface = &stage.surface;
+        let mut from = [bodies[0].player.place(); MOST_BLOCKS];
         let mut velocity = [V3::zero(); MOST_BLOCKS];
         let mut passed = [R::Mask::splat(false); MOST_BLOCKS];
         let passes = passes::<M, R>();
         for _ in 0..self.setup.task.frame_skip {
             // Where some are frozen, what they all were.
             let mut frozen = [const { None }; MOST_BLOCKS];
-            for (k, block) in blocks.iter_mut().enumerate() {
+            for (k, (body, block)) in bodies.iter_mut().zip(blocks.iter()).enumerate() {
                 if active[k].not().any() {
-                    frozen[k] = Some((block.player, block.run));
+                    frozen[k] = Some((body.player, block.run));
                 }
-                let player = &mut block.player;
+                let player = &mut body.player;
                 from[k] = player.place();
                 look(player, &inputs[k], &self.rules);
                 velocity[k] = push::<S, M, R>(player, &inputs[k], &self.rules);
@@ -68,27 +103,59 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
                 }
             }
             if passes {
-                catch_up::<S, M, R>(blocks, &passed, surface, &self.rules);
+                catch_up::<S, M, R>(bodies, &passed, surface, &self.rules);
             }
-            for (k, block) in blocks.iter_mut().enumerate() {
-                let Block { player, run, .. } = block;
+            for (k, (body, block)) in bodies.iter_mut().zip(blocks.iter_mut()).enumerate() {
+                let (player, run) = (&mut body.player, &mut block.run);
                 let (decision, active) = (&mut decisions[k], &mut active[k]);
                 if !passes {
                     go::<S, M, R, _>(player, velocity[k], surface, &self.rules);
                 }
-                let verdict = run.judge(&from[k], player, &self.setup.task, self.rules.max_damage, surface);
+                let verdict = run.judge(&from[k], player, &self.setup.task, &self.rules, surface);
                 (player.position.x, player.position.y, player.tile_x, player.tile_y) =
                     surface.wrap::<R>(player.position.x, player.position.y, player.tile_x, player.tile_y);
                 if let Some((before, running)) = &frozen[k] {
                     *player = Player::select(*active, player, before);
                     *run = Run::select(*active, run, running);
                 }
-                let more = decision.ticks + R::Int::splat(1);
-                decision.ticks = R::Int::select(*active, more, decision.ticks);
-                decision.arrived = decision.arrived.or(active.and(verdict.arrived));
-                decision.died = decision.died.or(active.and(verdict.died));
-                decision.timed_out = decision.timed_out.or(active.and(verdict.timed_out));
-                *active = active.and(decision.over().not());
+                decision.count(active, &verdict);
+            }
+        }
+    }
+
+    /// The ticks of players with projectiles or among solids: what plays bodies without a task plays them.
+    fn decide_armed(
+        &self,
+        stage: &Stage<'_, R::Scalar>,
+        (bodies, blocks): Blocks<'_, S, K, R>,
+        inputs: &[Input<R>; MOST_BLOCKS],
+        (decisions, active): (&mut [Decision<R>; MOST_BLOCKS], &mut [R::Mask; MOST_BLOCKS]),
+    ) {
+        let mut from = [bodies[0].player.place(); MOST_BLOCKS];
+        let mut frozen: Vec<Frozen<S, K, R::Scalar>> = Vec::new();
+        for _ in 0..self.setup.task.frame_skip {
+            frozen.clear();
+            for (k, (body, block)) in bodies.iter().zip(blocks.iter()).enumerate() {
+                from[k] = body.player.place();
+                let mut still = active[k].not().bits();
+                while still != 0 {
+                    let lane = still.trailing_zeros() as usize;
+                    still &= still - 1;
+                    frozen.push(Frozen { k, lane, body: body.lane(lane), run: block.run.lane(lane) });
+                }
+            }
+            if frozen.len() == bodies.len() * R::LANES {
+                break;
+            }
+            (self.play)(stage, bodies, inputs, 1);
+            for (k, (body, block)) in bodies.iter().zip(blocks.iter_mut()).enumerate() {
+                let (player, task) = (&body.player, &self.setup.task);
+                let verdict = block.run.judge(&from[k], player, task, &self.rules, &stage.surface);
+                decisions[k].count(&mut active[k], &verdict);
+            }
+            for Frozen { k, lane, body, run } in &frozen {
+                bodies[*k].set_lane(*lane, body);
+                blocks[*k].run.set_lane(*lane, run);
             }
         }
     }
@@ -97,28 +164,33 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     #[inline(always)]
     pub(super) fn settle(
         &self,
-        block: &mut Block<S, R>,
+        (body, block): (&Body<S, R>, &mut Block<K, R>),
         decision: &Decision<R>,
         surface: &Surface<'_, R::Scalar>,
     ) -> R::Each<f64> {
         let weights = &self.setup.task.reward;
         let (zero, one) = (R::Int::splat(0), R::Int::splat(1));
         // As arrays, so that the compiler can work on several lanes' f64 at a time.
-        let distances = block.run.distance(&block.player, surface).unpack();
+        let left = block.run.left(&body.player, &self.setup.task, surface).unpack();
         let ticks = R::unpack_int(decision.ticks);
         let arrived = R::unpack_int(R::Int::select(decision.arrived, one, zero));
+        let died = R::unpack_int(R::Int::select(decision.died, one, zero));
         let played = R::unpack_int(R::Int::select(decision.played, one, zero));
         let mut rewards = R::every(0.0);
         let books = &mut block.episodes;
         for lane in 0..R::LANES {
-            let distance = distances.as_ref()[lane].to_f64();
-            let before = books.distance.as_ref()[lane];
+            let left = left.as_ref()[lane].to_f64();
+            let before = books.left.as_ref()[lane];
             let seconds = seconds(ticks.as_ref()[lane], self.rules.tick_ms);
-            let bonus = if arrived.as_ref()[lane] != 0 { weights.arrival } else { 0.0 };
-            let reward = weights.progress * (before - distance) + weights.time * seconds + bonus;
+            let bonus = match (arrived.as_ref()[lane], died.as_ref()[lane]) {
+                (0, 0) => 0.0,
+                (0, _) => weights.death,
+                _ => weights.arrival,
+            };
+            let reward = weights.progress * (before - left) + weights.time * seconds + bonus;
             let playing = played.as_ref()[lane] != 0;
             rewards.as_mut()[lane] = if playing { reward } else { 0.0 };
-            books.distance.as_mut()[lane] = if playing { distance } else { before };
+            books.left.as_mut()[lane] = if playing { left } else { before };
             let total = books.total_reward.as_ref()[lane];
             books.total_reward.as_mut()[lane] = if playing { total + reward } else { total };
             books.length.as_mut()[lane] += i64::from(playing);

@@ -1,28 +1,43 @@
-//! What a batch of ski environments is made from, and the checks of it.
+//! What a batch of environments is made from, and the checks of it.
 
 use super::super::simulator::{MAX_PLAYERS, check_tick, find_armor};
 use super::{Autoreset, Batch, Environments};
 use crate::error::{InputError, refuse};
 use crate::movement::{Engine, Fast, Movement, Sliced, Swept};
-use crate::observe::SkiObservation;
+use crate::observe::Observation;
 #[cfg(target_arch = "x86_64")]
 use crate::real::lanes::{F32x8, F32x16};
 use crate::real::lanes::{Width, lane_width};
 use crate::rules::Physics;
-use crate::scene::Ski;
-use crate::task::{ActionKind, SkiTask};
+#[cfg(feature = "disc_jump")]
+use crate::scene::DiscJump;
+#[cfg(feature = "mission")]
+use crate::scene::Mission;
+use crate::scene::{Scene, Ski};
+use crate::solids::Solids;
+#[cfg(feature = "disc_jump")]
+use crate::task::Marker;
+#[cfg(feature = "mission")]
+use crate::task::Stands;
+use crate::task::{ActionKind, Beacon, Grounds, Kind, Level, Pitch, Reward, TaskRules};
 use crate::terrain::mission::Area;
 use crate::terrain::{Edge, Maps};
-use glam::DVec2;
+use glam::{DVec2, DVec3, IVec2};
 use std::sync::Arc;
 
-/// Everything that a batch of ski environments is made from.
+/// Everything that a batch of environments is made from.
 #[derive(Debug)]
-pub struct SkiEnvironments {
+pub struct EnvironmentsSetup {
     /// The pool of maps; batches may share one.
     pub maps: Arc<Maps>,
-    /// The area of each map that episodes are drawn in.
-    pub areas: Vec<Area>,
+    /// What kind of goal there is: which scene is played.
+    pub grounds: Grounds,
+    /// Where episodes take place on each map.
+    pub pitches: Vec<Pitch>,
+    /// What stands on each map, or nothing at all; only missions look at it.
+    pub solids: Vec<Arc<Solids>>,
+    /// Discs of a fresh player, where he has a launcher.
+    pub ammo: i32,
     /// How many environments.
     pub count: usize,
     /// Tier: "reference", "authentic", "swept", "fast" or "engine".
@@ -36,11 +51,11 @@ pub struct SkiEnvironments {
     /// Tick length, ms.
     pub tick_ms: u32,
     /// The task.
-    pub task: SkiTask,
+    pub task: TaskRules,
     /// Its actions.
     pub actions: ActionKind,
     /// Its observation.
-    pub observation: SkiObservation,
+    pub observation: Observation,
     /// When ended episodes begin anew.
     pub autoreset: Autoreset,
     /// Threads; one per core where absent.
@@ -51,34 +66,58 @@ pub struct SkiEnvironments {
     pub lanes: Option<usize>,
 }
 
-impl SkiEnvironments {
+impl EnvironmentsSetup {
     /// Builds the batch. Nothing is reset yet.
     ///
     /// # Errors
     /// Names the argument that is out of range or unknown, with what was expected.
     pub fn build(self) -> Result<Box<dyn Environments>, InputError> {
         self.check()?;
+        match self.grounds {
+            Grounds::Beacon => self.fused(),
+            #[cfg(feature = "disc_jump")]
+            Grounds::Marker => self.tier::<DiscJump, Marker>(),
+            #[cfg(feature = "mission")]
+            Grounds::Stands => self.tier::<Mission, Stands>(),
+            #[cfg(not(all(feature = "disc_jump", feature = "mission")))]
+            other => refuse!("grounds: expected those of a scene of this build, got {other:?}"),
+        }
+    }
+
+    fn tier<S: Scene, K: Kind>(self) -> Result<Box<dyn Environments>, InputError> {
         match self.fidelity.as_str() {
-            "reference" => Batch::<Ski, Sliced, f64>::boxed(self),
-            "authentic" => self.side_by_side::<Sliced>(),
-            "swept" => self.side_by_side::<Swept>(),
-            "fast" => self.side_by_side::<Fast>(),
-            "engine" => Batch::<Ski, Engine, f32>::boxed(self),
-            other => refuse!(
-                "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\" or \"engine\", got {other:?}"
-            ),
+            "reference" => Batch::<S, K, Sliced, f64>::boxed::<Sliced>(self),
+            "authentic" => self.side_by_side::<S, K, Sliced, Sliced>(),
+            "swept" => self.side_by_side::<S, K, Sliced, Swept>(),
+            "fast" => self.side_by_side::<S, K, Sliced, Fast>(),
+            "engine" => Batch::<S, K, Sliced, f32>::boxed::<Engine>(self),
+            other => unknown(other),
+        }
+    }
+
+    /// Skiers: a kernel for each tier.
+    fn fused(self) -> Result<Box<dyn Environments>, InputError> {
+        match self.fidelity.as_str() {
+            "reference" => Batch::<Ski, Beacon, Sliced, f64>::boxed::<Sliced>(self),
+            "authentic" => self.side_by_side::<Ski, Beacon, Sliced, Sliced>(),
+            "swept" => self.side_by_side::<Ski, Beacon, Swept, Swept>(),
+            "fast" => self.side_by_side::<Ski, Beacon, Fast, Fast>(),
+            "engine" => Batch::<Ski, Beacon, Engine, f32>::boxed::<Engine>(self),
+            other => unknown(other),
         }
     }
 
     /// The kernel of a tier that has lanes.
-    fn side_by_side<M: Movement>(self) -> Result<Box<dyn Environments>, InputError> {
+    fn side_by_side<S: Scene, K: Kind, M: Movement, P: Movement>(
+        self,
+    ) -> Result<Box<dyn Environments>, InputError> {
         match lane_width(self.lanes, self.count)? {
-            Width::One => Batch::<Ski, M, f32>::boxed(self),
+            Width::One => Batch::<S, K, M, f32>::boxed::<P>(self),
             #[cfg(target_arch = "x86_64")]
-            Width::Eight => Batch::<Ski, M, F32x8>::boxed(self),
+            Width::Eight => Batch::<S, K, M, F32x8>::boxed::<P>(self),
             #[cfg(target_arch = "x86_64")]
             // Two registers are slower here: observations are bound by work, not by waiting.
-            Width::Sixteen | Width::ThirtyTwo => Batch::<Ski, M, F32x16>::boxed(self),
+            Width::Sixteen | Width::ThirtyTwo => Batch::<S, K, M, F32x16>::boxed::<P>(self),
         }
     }
 
@@ -90,7 +129,6 @@ impl SkiEnvironments {
         lane_width(self.lanes, self.count)?;
         check_tick(self.tick_ms)?;
         let task = &self.task;
-        let (near, far) = task.goal_distance;
         if !(1..=1000).contains(&task.frame_skip) {
             refuse!("frame_skip: expected 1 to 1000 ticks, got {}", task.frame_skip);
         }
@@ -100,41 +138,66 @@ impl SkiEnvironments {
         if !(task.arrival_radius > 0.0 && task.arrival_radius <= 1000.0) {
             refuse!("arrival_radius: expected above 0 and up to 1000 m, got {}", task.arrival_radius);
         }
-        if !(near > task.arrival_radius && near <= far && far <= 1e6) {
-            refuse!(
-                "goal_distance: expected (near, far) with arrival_radius < near <= far <= 1e6 m, got ({near}, {far})"
-            );
-        }
-        if !(0.0..=1000.0).contains(&task.start_speed) {
-            refuse!("start_speed: expected 0 to 1000 m/s, got {}", task.start_speed);
+        if !(0..=1_000_000).contains(&self.ammo) {
+            refuse!("ammo: expected 0 to 1000000, got {}", self.ammo);
         }
         if !(task.turn_rate > 0.0 && task.turn_rate <= crate::input::MAX_TURN_RATE) {
             refuse!("turn_rate: expected above 0 and up to 1000 rad/s, got {}", task.turn_rate);
         }
-        let reward = [task.reward.progress, task.reward.time, task.reward.arrival];
+        let Reward { progress, time, arrival, death, climb } = task.reward;
+        let reward = [progress, time, arrival, death, climb];
         if let Some(bad) = reward.iter().find(|w| w.is_nan() || w.abs() > 1e6) {
             refuse!("reward: expected finite weights within +-1e6, got {bad}");
         }
-        if self.areas.len() != self.maps.count() {
-            refuse!("areas: expected {}, one per terrain, got {}", self.maps.count(), self.areas.len());
+        if self.pitches.len() != self.maps.count() {
+            refuse!("areas: expected {}, one per terrain, got {}", self.maps.count(), self.pitches.len());
         }
-        for (k, area) in self.areas.iter().enumerate() {
-            self.check_area(k, area)?;
+        if !self.solids.is_empty() && self.solids.len() != self.maps.count() {
+            refuse!("solids: expected {}, one per terrain, got {}", self.maps.count(), self.solids.len());
         }
-        let diagonal = |a: &Area| (DVec2::from(a.max) - DVec2::from(a.min)).length();
-        if let Some(area) = self.areas.iter().find(|a| diagonal(a) < near) {
+        if task.levels.is_empty() {
+            refuse!("levels: expected at least one, got none");
+        }
+        task.levels.iter().try_for_each(|level| self.check_level(level))
+    }
+
+    fn check_level(&self, level: &Level) -> Result<(), InputError> {
+        let (near, far) = level.goal_distance;
+        let radius = self.task.arrival_radius;
+        if !(near > radius && near <= far && far <= 1e6) {
             refuse!(
-                "goal_distance: expected at most {:.1} m, the diagonal of the smallest terrain's area, got {near}",
-                diagonal(area)
+                "goal_distance: expected (near, far) with arrival_radius < near <= far <= 1e6 m, got ({near}, {far})"
             );
+        }
+        if !(0.0..=1000.0).contains(&level.start_speed) {
+            refuse!("start_speed: expected 0 to 1000 m/s, got {}", level.start_speed);
+        }
+        if !(0.0..=1000.0).contains(&level.start_height) {
+            refuse!("start_height: expected 0 to 1000 m, got {}", level.start_height);
+        }
+        if !(0.0..=1e6).contains(&level.aside) {
+            refuse!("aside: expected 0 to 1e6 m, got {}", level.aside);
+        }
+        let diagonal = |area: &Area| (DVec2::from(area.max) - DVec2::from(area.min)).length();
+        for (k, Pitch { area, stands }) in self.pitches.iter().enumerate() {
+            self.check_area(k, area, level)?;
+            if self.grounds != Grounds::Marker && diagonal(area) < near {
+                refuse!(
+                    "goal_distance: expected at most {:.1} m, the diagonal of the smallest terrain's area, got {near}",
+                    diagonal(area)
+                );
+            }
+            if self.grounds == Grounds::Stands {
+                self.check_stands(k, stands, area)?;
+            }
         }
         Ok(())
     }
 
     /// An episode drawn in a checked area can always begin: a batch begins them in the middle of a step.
-    fn check_area(&self, k: usize, area: &Area) -> Result<(), InputError> {
+    fn check_area(&self, k: usize, area: &Area, level: &Level) -> Result<(), InputError> {
         let (min, max) = (DVec2::from(area.min), DVec2::from(area.max));
-        let far = DVec2::splat(self.task.goal_distance.1);
+        let far = DVec2::splat(level.goal_distance.1.max(level.aside));
         let within = [min - far, max + far].iter().all(|c| self.maps.to_local(c.extend(0.0)).is_ok());
         if !(min.cmple(max).all() && within) {
             refuse!(
@@ -148,4 +211,25 @@ impl SkiEnvironments {
         }
         Ok(())
     }
+
+    /// Flags stand in the area and on the first tile, apart.
+    fn check_stands(&self, k: usize, stands: &[DVec3; 2], area: &Area) -> Result<(), InputError> {
+        for stand in stands {
+            let home = self.maps.to_local(*stand).is_ok_and(|(_, tile)| tile == IVec2::ZERO);
+            if !(home && area.contains(stand.truncate().into())) {
+                refuse!("flags[{k}]: expected places within the area and on the map, got {stand}");
+            }
+        }
+        let (apart, radius) = ((stands[0] - stands[1]).length(), self.task.arrival_radius);
+        if apart <= 2.0 * radius {
+            refuse!("flags[{k}]: expected more than {} m between them, got {apart}", 2.0 * radius);
+        }
+        Ok(())
+    }
+}
+
+fn unknown(fidelity: &str) -> Result<Box<dyn Environments>, InputError> {
+    refuse!(
+        "fidelity: expected \"reference\", \"authentic\", \"swept\", \"fast\" or \"engine\", got {fidelity:?}"
+    )
 }

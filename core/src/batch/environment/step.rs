@@ -2,7 +2,7 @@
 
 use super::block::{Observe, Step};
 use super::*;
-use crate::observe::Columns;
+use crate::observe::{Columns, Observation, Seen};
 use crate::terrain::Surface;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -97,15 +97,16 @@ impl<'a> StepOutput<'a> {
 }
 
 /// A piece of the batch and of the outputs.
-pub(super) struct Piece<'a, S: Scene, R: Real> {
-    pub(super) blocks: &'a mut [Block<S, R>],
+pub(super) struct Piece<'a, S: Scene, K: Kind, R: Real> {
+    pub(super) bodies: &'a mut [Body<S, R>],
+    pub(super) blocks: &'a mut [Block<K, R>],
     pub(super) output: StepOutput<'a>,
     pub(super) report: &'a mut Report,
     /// Index of its first environment.
     pub(super) first: usize,
 }
 
-impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
+impl<S: Scene, K: Kind, M: Movement, R: Real> Batch<S, K, M, R> {
     pub(super) fn check_reset(&self, request: &ResetRequest, numbers: usize) -> Result<(), InputError> {
         self.check_whole()?;
         let n = self.setup.count;
@@ -139,7 +140,7 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     ) -> Result<(), InputError> {
         self.check_whole()?;
         let n = self.setup.count;
-        actions.check(self.setup.actions, n)?;
+        actions.check(self.setup.actions, S::Arms::<R>::MODELED, n)?;
         if output.observations.len() != n * self.row || output.lengths().any(|len| len != n) {
             refuse!("output: expected {n} rows of {} and {n} of the rest", self.row);
         }
@@ -153,22 +154,38 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     #[inline(always)]
     pub(super) fn observe_block(
         &self,
-        block: &Block<S, R>,
+        (body, block): (&Body<S, R>, &Block<K, R>),
         surface: &Surface<'_, R::Scalar>,
         rows: &mut [f32],
         players: usize,
         columns: &mut Columns<R>,
     ) {
-        let Block { player, run, lowest, .. } = block;
-        self.setup.observation.write(player, run, surface, &self.rules, *lowest, rows, players, columns);
+        if const { S::Arms::<R>::MODELED } {
+            for (lane, row) in rows.chunks_exact_mut(self.row).enumerate() {
+                self.observe_one(body, block, lane, row);
+            }
+            return;
+        }
+        let Block { run, lowest, .. } = block;
+        let (player, arms) = (&body.player, body.arms.as_ref());
+        let (rules, arsenal, lowest) = (&self.rules, &self.arsenal, *lowest);
+        let seen = Seen { player, arms, run, surface, rules, arsenal, lowest };
+        self.setup.observation.write(&seen, rows, players, columns);
     }
 
     /// The observation of one player.
-    pub(super) fn observe_lane(&self, block: &Block<S, R>, lane: usize, row: &mut [f32]) {
-        let (player, run, lowest) = (block.player.lane(lane), block.run.lane(lane), block.lowest.lane(lane));
-        let surface = self.setup.maps.surface();
-        let columns = &mut Columns::<R::Scalar>::default();
-        self.setup.observation.write(&player, &run, &surface, &self.rules, lowest, row, 1, columns);
+    pub(super) fn observe_one(&self, body: &Body<S, R>, block: &Block<K, R>, lane: usize, row: &mut [f32]) {
+        let Begun { body, run, .. } = block.one(body, lane);
+        let surface = &self.setup.maps.surface();
+        let (rules, arsenal, lowest) = (&self.rules, &self.arsenal, block.lowest.lane(lane));
+        let (player, arms) = (&body.player, body.arms.as_ref());
+        let seen = Seen { player, arms, run: &run, surface, rules, arsenal, lowest };
+        observe_single(&self.setup.observation, &seen, row);
+    }
+
+    /// The same, of the player of a lane of a block.
+    pub(super) fn observe_lane(&self, block: usize, lane: usize, row: &mut [f32]) {
+        self.observe_one(&self.bodies[block], &self.blocks[block], lane, row);
     }
 
     /// Returns whether it came to the end; see [`Crew::share`].
@@ -180,10 +197,11 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
     ) -> bool {
         let (blocks, rows) = (Self::PIECE / R::LANES, Self::PIECE * self.row);
         let surface = self.setup.maps.surface();
-        let pieces = self.blocks.chunks(blocks).zip(observations.chunks_mut(rows));
-        let work = |(blocks, rows)| {
+        let pieces = self.bodies.chunks(blocks).zip(self.blocks.chunks(blocks));
+        let pieces = pieces.zip(observations.chunks_mut(rows));
+        let work = |((bodies, blocks), rows)| {
             let _floats = DefaultFloats::enter();
-            R::enter(Observe { batch: self, surface, blocks, rows });
+            R::enter(Observe { batch: self, surface, bodies, blocks, rows });
         };
         crew.share(pieces, work, go_on)
     }
@@ -198,26 +216,30 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         let crew = self.crew()?;
         let (count, row) = (self.setup.count, self.row);
         // They leave the batch for the step, so that the rest of it can be read from every thread.
+        let mut bodies = core::mem::take(&mut self.bodies);
         let mut blocks = core::mem::take(&mut self.blocks);
         let mut reports = core::mem::take(&mut self.reports);
         reports.resize_with(count.div_ceil(Self::PIECE), || Report::new(false));
         let this = &*self;
-        let surface = this.setup.maps.surface();
-        let pieces = blocks.chunks_mut(Self::PIECE / R::LANES).zip(&mut reports).enumerate();
-        let pieces = pieces.map(move |(k, (blocks, report))| {
+        let stage = this.stage();
+        let (players, books) =
+            (bodies.chunks_mut(Self::PIECE / R::LANES), blocks.chunks_mut(Self::PIECE / R::LANES));
+        let pieces = players.zip(books).zip(&mut reports).enumerate();
+        let pieces = pieces.map(move |(k, ((bodies, blocks), report))| {
             let first = k * Self::PIECE;
             let output = output.split_off(Self::PIECE.min(count - first), row);
-            Piece { blocks, output, report, first }
+            Piece { bodies, blocks, output, report, first }
         });
         let stepped = catch_unwind(AssertUnwindSafe(|| {
-            let work = |piece: Piece<'_, S, R>| {
+            let work = |piece: Piece<'_, S, K, R>| {
                 let _floats = DefaultFloats::enter();
                 piece.report.restart();
-                R::enter(Step { batch: this, surface, piece, actions });
+                R::enter(Step { batch: this, stage, piece, actions });
                 assert!(!fail, "this step was made to fail");
             };
             crew.share(pieces, work, go_on)
         }));
+        self.bodies = bodies;
         self.blocks = blocks;
         self.finished.clear();
         self.final_observations.clear();
@@ -232,4 +254,14 @@ impl<S: Scene, M: Movement, R: Real> Batch<S, M, R> {
         }
         self.check_whole()
     }
+}
+
+/// The row of one player. Compiled once, whatever the lanes.
+#[inline(never)]
+fn observe_single<S: Scene, K: Kind, T: Scalar>(
+    observation: &Observation,
+    seen: &Seen<'_, S, K, T>,
+    row: &mut [f32],
+) {
+    observation.write(seen, row, 1, &mut Columns::<T>::default());
 }

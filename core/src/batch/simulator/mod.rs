@@ -6,7 +6,7 @@ mod shots;
 mod state;
 
 pub use setup::{FARTHEST_SOLID_F32, MAX_PLAYERS, MAX_PLAYERS_PER_WORLD, SimulatorSetup};
-pub(super) use setup::{check_tick, find_armor};
+pub(super) use setup::{check_near, check_tick, find_armor};
 pub use shots::Shot;
 pub use state::MAX_SPEED;
 
@@ -130,7 +130,7 @@ pub trait Bodies: Send + Sync {
 #[derive(Debug)]
 pub struct Simulator<S: Scene, M: Movement, R: Real> {
     maps: Maps,
-    solids: Option<Arc<Solids>>,
+    solids: Vec<Arc<Solids>>,
     rules: Rules<R::Scalar>,
     arsenal: Arsenal<R::Scalar>,
     blocks: Vec<Body<S, R>>,
@@ -156,7 +156,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     }
 
     fn stage(&self) -> Stage<'_, R::Scalar> {
-        Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal)
+        Stage::new(&self.maps, &self.solids, &self.rules, &self.arsenal)
     }
 
     fn refuse_broken(&self) -> Result<(), InputError> {
@@ -212,29 +212,19 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
     }
 }
 
-/// Ticks of players who are alone in their worlds.
-struct PlayAlone<'a, S: Scene, M: Movement, R: Real> {
-    stage: &'a Stage<'a, R::Scalar>,
-    blocks: &'a mut [Body<S, R>],
+/// Keys as inputs, side by side.
+struct Pack<'a, R: Real> {
+    inputs: &'a mut [Input<R>; MOST_BLOCKS],
     raw: &'a [RawInput],
-    ticks: u32,
-    movement: PhantomData<M>,
 }
 
-impl<S: Scene, M: Movement, R: Real> Work for PlayAlone<'_, S, M, R> {
+impl<R: Real> Work for Pack<'_, R> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let together = together::<R>();
-        let mut inputs = [Input::idle(); MOST_BLOCKS];
-        for (blocks, raw) in self.blocks.chunks_mut(together).zip(self.raw.chunks(together * R::LANES)) {
-            for (input, raw) in inputs.iter_mut().zip(raw.chunks(R::LANES)) {
-                *input = RawInput::pack::<R>(raw);
-            }
-            for _ in 0..self.ticks {
-                self.stage.tick_alone::<S, M, R>(blocks, &inputs);
-            }
+        for (input, raw) in self.inputs.iter_mut().zip(self.raw.chunks(R::LANES)) {
+            *input = RawInput::pack::<R>(raw);
         }
     }
 }
@@ -249,7 +239,12 @@ fn play<S: Scene, M: Movement, R: Real>(
 ) {
     let _floats = DefaultFloats::enter();
     if per_world == 1 {
-        R::enter(PlayAlone::<S, M, R> { stage, blocks, raw, ticks, movement: PhantomData });
+        let together = together::<R>();
+        let mut inputs = [Input::idle(); MOST_BLOCKS];
+        for (blocks, raw) in blocks.chunks_mut(together).zip(raw.chunks(together * R::LANES)) {
+            R::enter(Pack { inputs: &mut inputs, raw });
+            stage.play_alone::<S, M, R>(blocks, &inputs, ticks);
+        }
         return;
     }
     let mut stands: Vec<Stand> = Vec::with_capacity(per_world);
@@ -320,7 +315,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         RawInput::check_all(inputs)?;
         let crew = Crew::new(self.threads, self.count)?;
         let (per_world, piece) = (self.per_world, self.piece());
-        let stage = Stage::new(&self.maps, self.solids.as_deref(), &self.rules, &self.arsenal);
+        let stage = Stage::new(&self.maps, &self.solids, &self.rules, &self.arsenal);
         self.broken = true;
         let fail = core::mem::take(&mut self.fail);
         let pieces = self.blocks.chunks_mut(piece / R::LANES).zip(inputs.chunks(piece));
@@ -346,7 +341,7 @@ impl<S: Scene, M: Movement, R: Real> Bodies for Simulator<S, M, R> {
         let stands: Vec<Stand> = world.map(|k| Stand::of(&self.body(k).player.place())).collect();
         let mut body = self.body(player);
         stage.aim(&mut body, &input);
-        let world = Neighbourhood { log: Some(&log), ..stage.around(&stands, me) };
+        let world = Neighbourhood { log: Some(&log), ..stage.around(body.player.map, &stands, me) };
         stage.move_among::<S, M>(&mut body.player, &input, &world);
         Ok(log.into_inner())
     }

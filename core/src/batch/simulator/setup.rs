@@ -127,18 +127,8 @@ impl SimulatorSetup<'_> {
         let rules = Rules::<R::Scalar>::new(M::MODEL, armor, self.energy_pack, self.tick_ms, self.physics);
         let mut arsenal = Arsenal::<R::Scalar>::new(weapon, self.tick_ms, &self.physics);
         arsenal.ammo = self.ammo.unwrap_or(arsenal.ammo);
-        let solids = if S::SOLIDS { self.solids.cloned() } else { None };
-        if let Some(solids) = &solids
-            && !R::Scalar::DOUBLE
-        {
-            let far = solids.farthest(maps.centre().extend(0.0));
-            if far > FARTHEST_SOLID_F32 {
-                refuse!(
-                    "terrain.solids: in float32 expected within {FARTHEST_SOLID_F32} m of the map's centre and of height 0 \
-                     along each axis, got {far:.1} m; fidelity \"reference\" and precision \"float64\" take them"
-                );
-            }
-        }
+        let solids: Vec<_> = self.solids.filter(|_| S::SOLIDS).cloned().into_iter().collect();
+        check_near::<R>(&solids, &maps)?;
         let mut layout = format!(
             "scene {}, fidelity {}, armor {}, energy_pack {}, {:?}, tick_ms {}, terrain {}, players_per_world {}",
             S::NAME,
@@ -153,7 +143,7 @@ impl SimulatorSetup<'_> {
         if S::Arms::<R>::MODELED {
             layout += &format!(", weapon {}, ammo {}", weapon.name, arsenal.ammo);
         }
-        if let Some(solids) = &solids {
+        for solids in &solids {
             layout += &format!(", solids {:032x}", solids.digest());
         }
         // A tier's own precision is not told: the layouts of snapshots that never had a choice stay theirs.
@@ -185,6 +175,22 @@ impl SimulatorSetup<'_> {
             movement: core::marker::PhantomData,
         }))
     }
+}
+
+/// Checks that no solid is too far away for the arithmetic.
+///
+/// # Errors
+/// If one is.
+pub(in super::super) fn check_near<R: Real>(solids: &[Arc<Solids>], maps: &Maps) -> Result<(), InputError> {
+    let from = maps.centre().extend(0.0);
+    let far = solids.iter().map(|solids| solids.farthest(from)).fold(0.0, f64::max);
+    if far > FARTHEST_SOLID_F32 && !R::Scalar::DOUBLE {
+        refuse!(
+            "terrain.solids: in float32 expected within {FARTHEST_SOLID_F32} m of the map's centre and of height 0 \
+             along each axis, got {far:.1} m; fidelity \"reference\" and precision \"float64\" take them"
+        );
+    }
+    Ok(())
 }
 
 /// Player `k` of a world at his first place.

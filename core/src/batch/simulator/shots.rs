@@ -92,7 +92,7 @@ impl<S: Scene, M: Movement, R: Real> Simulator<S, M, R> {
                     let map = body.player.map;
                     let place = Place { position, tile_x: tile.x, tile_y: tile.y, map };
                     let at = seen_from(&body.player, &place, &stage.surface);
-                    let hood = stage.around(&stands, me);
+                    let hood = stage.around(body.player.map, &stands, me);
                     stage.explode(&mut body.player, at, at, &explosive, &hood);
                 }
             }

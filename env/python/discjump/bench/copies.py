@@ -14,8 +14,7 @@ import numpy as np
 from discjump.bench.clock import Effort, Ready, interleave, loop, spread
 from discjump.bench.figure import Figure, call, ratio, row
 from discjump.bench.ways import SEED, random_actions
-from discjump.envs.ski import SkiEnv
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.named import SkiEnv, SkiVectorEnv
 from discjump.simulator import Simulator
 from discjump.terrains import generated
 

@@ -13,7 +13,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from discjump._native import SkiBatch, Terrain, time_environments, time_players, time_resets
+from discjump._native import TaskBatch, Terrain, time_environments, time_players, time_resets
 from discjump.bench.clock import Ready, Unavailable, loop
 from discjump.envs.options import SkiOptions
 from discjump.simulator import Simulator
@@ -136,7 +136,7 @@ class Agents:
         """Agent steps."""
         return self.num_envs
 
-    def batch(self) -> SkiBatch:
+    def batch(self) -> TaskBatch:
         """The environments, reset."""
         options = SkiOptions(
             frame_skip=self.frame_skip,

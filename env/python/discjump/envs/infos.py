@@ -1,4 +1,4 @@
-"""What `info` holds at every step, and what the end of an episode adds; `env/src/ski/info.rs` makes it.
+"""What `info` holds at every step, and what the end of an episode adds; `env/src/task/info.rs` makes it.
 
 | key | unit | meaning |
 |---|---|---|

@@ -6,7 +6,7 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
-from discjump._native import SkiBatch, Terrain
+from discjump._native import TaskBatch, Terrain
 from discjump.envs.command_map import CommandMap
 
 # Recording is one array per decision; an hour at one tick per decision.
@@ -23,7 +23,7 @@ class Camera:
         arrival_radius: drawn round the beacon, m.
     """
 
-    def __init__(self, batch: SkiBatch, terrains: list[Terrain], arrival_radius: float) -> None:
+    def __init__(self, batch: TaskBatch, terrains: list[Terrain], arrival_radius: float) -> None:
         self._batch = batch
         self._terrains = terrains
         self._radius = arrival_radius

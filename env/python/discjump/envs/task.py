@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from discjump import _check
 from discjump._native import Terrain
 from discjump.envs import placement
-from discjump.envs.options import SkiOptions
+from discjump.envs.options import TaskOptions
 from discjump.envs.render import Camera
 
 Seeds = Sequence[int | None]
@@ -30,8 +30,8 @@ class ObservationField(NamedTuple):
     """Value in `unit` = observation * scale. A field that is not linear has unit "" and scale 1."""
 
 
-class SkiTask:
-    """A batch of ski environments with its spaces.
+class TaskEnvs:
+    """A batch of environments with its spaces.
 
     Args:
         options: of the task.
@@ -44,7 +44,7 @@ class SkiTask:
 
     def __init__(
         self,
-        options: SkiOptions,
+        options: TaskOptions,
         num_envs: int,
         *,
         autoreset: str,
@@ -188,7 +188,7 @@ class SkiTask:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Make it again."""
-        SkiTask.__init__(self, **state["arguments"])
+        TaskEnvs.__init__(self, **state["arguments"])
         self.batch.restore(state["snapshot"])
         if self.camera is not None:
             self.camera.paths = state["paths"]

@@ -1,4 +1,4 @@
-"""`discjump/Ski-v0` for many environments, stepped together in Rust."""
+"""Many environments of any task, stepped together in Rust."""
 
 from typing import Any, ClassVar, NoReturn
 
@@ -9,9 +9,9 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
-from discjump.envs.options import SkiOptions
-from discjump.envs.ski import RENDER_MODES, checked_render_mode
-from discjump.envs.task import ObservationField, SkiTask, seeds_of
+from discjump.envs.options import TaskOptions
+from discjump.envs.single import RENDER_MODES, checked_render_mode
+from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
 
 AUTORESET = {
     AutoresetMode.NEXT_STEP: "next_step",
@@ -22,8 +22,9 @@ AUTORESET = {
 Step = tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
 
 
-class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
-    """Environments that behave, bit for bit, as gymnasium's `SyncVectorEnv` over as many `SkiEnv`.
+class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
+    """Environments that behave, bit for bit, as gymnasium's `SyncVectorEnv` over as many single ones of the
+    task.
 
     An environment with seed s gives the same bits at any index, among any number of others, on any number of
     threads. What `reset` and `step` return never changes afterwards: a buffer is used again only when nobody
@@ -39,21 +40,13 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         lanes: most players side by side: 1, 8, 16 or 32, as far as the processor has them; None: the
             environment variable `DISCJUMP_LANES` says, else the processor. No bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
-        **options: fields of `discjump.envs.options.SkiOptions`.
+        **options: fields of the task's options.
 
     Raises:
         TypeError, ValueError: naming the option, what was expected and what came.
-
-    >>> import gymnasium, discjump
-    >>> envs = gymnasium.make_vec("discjump/Ski-v0", num_envs=3, terrain_seeds=[0])
-    >>> observations, info = envs.reset(seed=7)
-    >>> observations.dtype, info["distance"].shape
-    (dtype('float32'), (3,))
-    >>> actions = np.tile([2, 1, 1, 0, 3], (3, 1))
-    >>> observations, rewards, terminations, truncations, info = envs.step(actions)
-    >>> rewards.dtype, terminations.shape
-    (dtype('float64'), (3,))
     """
+
+    OPTIONS: ClassVar[type[TaskOptions]]
 
     metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
         "render_modes": list(RENDER_MODES),
@@ -73,13 +66,13 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
     ) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.autoreset_mode = _checked_autoreset_mode(autoreset_mode)
-        self.options = SkiOptions.from_keywords(options)
+        self.options = self.OPTIONS.from_keywords(options)
         self.metadata = {  # type: ignore[misc]
             **type(self).metadata,
             "render_fps": 1 / self.options.decision_seconds,
             "autoreset_mode": self.autoreset_mode,
         }
-        self._task = SkiTask(
+        self._task = TaskEnvs(
             self.options,
             num_envs,
             autoreset=AUTORESET[self.autoreset_mode],
@@ -113,7 +106,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         return self._task.batch.state()
 
     def goals(self) -> NDArray[np.float64]:
-        """The beacons on the ground, (num_envs, 3), m."""
+        """The goals, (num_envs, 3), m: beacons on the ground, markers in the air, flags on their stands."""
         return self._task.batch.goals()
 
     def reset(
@@ -142,7 +135,7 @@ class SkiVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         """One decision of every environment.
 
         Args:
-            actions: (num_envs, 5), integer (float32 with `actions="box"`).
+            actions: (num_envs, 5) or, with a launcher, (num_envs, 7), integer (float32 with `actions="box"`).
 
         Returns:
             Observations (num_envs, size) float32, rewards (num_envs,) float64, terminations and truncations

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from discjump.envs.options import SkiOptions
+from discjump.envs.tasks import BY_ID, SKI
 from discjump.replays.episode import EpisodeReplay, plain_options
 from discjump.replays.replay import Header, Replay
 from discjump.replays.ticks import TickReplay
@@ -29,12 +29,13 @@ def card(replay: Replay, size: int) -> Card:
 
 def _episode(replay: EpisodeReplay) -> Card:
     options = replay.options
-    defaults = plain_options(SkiOptions())
+    task = BY_ID.get(str(replay.header["id"]).removeprefix("discjump:"), SKI)
+    defaults = plain_options(task.options())
     other = {name: value for name, value in options.items() if value != defaults.get(name)}
     seeds = other.pop("terrain_seeds", None)
     told = {
         "environment": str(replay.header["id"]),
-        "scene": "ski",
+        "task": task.name,
         "fidelity": str(options["fidelity"]),
         "options": _listed(other, asdict(Physics())) or "the defaults",
         "terrain": _terrain(replay, seeds),

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
-from discjump.envs.options import SkiOptions
+from discjump.envs.options import TaskOptions
 from discjump.envs.placement import KEYS
+from discjump.envs.tasks import BY_ID, SKI
 from discjump.replays import grounds
 from discjump.replays.bare import build, play
 from discjump.replays.errors import ReplayError
@@ -48,7 +49,8 @@ class EpisodeReplay(Replay):
             raise ReplayError(
                 f"replay: expected an episode from 0 to {MOST_EPISODES}, got {self.header['episode']}"
             )
-        checked_options(self.header["options"], [f.name for f in fields(SkiOptions)])
+        task = BY_ID.get(self.header["id"].removeprefix("discjump:"), SKI)
+        checked_options(self.header["options"], [f.name for f in fields(task.options)])
         checked_options(self.header["reset"], KEYS)
         skip = self.header["options"].get("frame_skip")
         if not isinstance(skip, int) or not 1 <= skip <= 64:
@@ -62,7 +64,7 @@ class EpisodeReplay(Replay):
         tape: Tape,
         *,
         name: str,
-        options: SkiOptions,
+        options: TaskOptions,
         terrain: Terrain,
         seed: int,
         episode: int,
@@ -226,7 +228,7 @@ class EpisodeReplay(Replay):
         return None
 
 
-def plain_options(options: SkiOptions) -> Header:
+def plain_options(options: TaskOptions) -> Header:
     """Options as JSON has them, terrains left out."""
     plain: Header = {f.name: getattr(options, f.name) for f in fields(options) if f.name != "terrains"}
     plain["physics"] = asdict(options.physics)

@@ -7,7 +7,7 @@ import gymnasium
 import numpy as np
 
 from discjump import _check
-from discjump.envs.ski import SkiEnv
+from discjump.envs.single import TaskEnv
 from discjump.replays.episode import EpisodeReplay
 from discjump.replays.shelf import EVERY, Deliver, Shelf, id_of, placed_at
 from discjump.replays.tape import Tape
@@ -46,12 +46,12 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
         every: int = EVERY,
         on_replay: Deliver | None = None,
     ) -> None:
-        if not isinstance(env.unwrapped, SkiEnv):
+        if not isinstance(env.unwrapped, TaskEnv):
             raise TypeError(f"env: expected an environment of discjump, got {env.unwrapped!r:.80}")
         super().__init__(env)
         if env.action_space != env.unwrapped.action_space:
             raise ValueError("env: expected a recorder inside of what changes actions, got it outside")
-        self._inner: SkiEnv = env.unwrapped
+        self._inner: TaskEnv = env.unwrapped
         self._id = id_of(env)
         self._every = _check.integer("every", every, 1, 2**20)
         self._shelf = Shelf(folder, on_replay)

@@ -9,7 +9,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv, VectorWrapper
 from numpy.typing import NDArray
 
 from discjump import _check
-from discjump.envs.vector import SkiVectorEnv
+from discjump.envs.vector import TaskVectorEnv
 from discjump.replays.episode import EpisodeReplay
 from discjump.replays.recorder import Recorder
 from discjump.replays.shelf import EVERY, Deliver, Shelf, id_of, placed_at
@@ -38,10 +38,10 @@ class VectorRecorder(VectorWrapper):
         rows: Iterable[int] | None = None,
         episodes: int | None = None,
     ) -> None:
-        if not isinstance(env.unwrapped, SkiVectorEnv):
+        if not isinstance(env.unwrapped, TaskVectorEnv):
             raise TypeError(f"env: expected a vector environment of discjump, got {env.unwrapped!r:.80}")
         super().__init__(env)
-        self._inner: SkiVectorEnv = env.unwrapped
+        self._inner: TaskVectorEnv = env.unwrapped
         self._id = id_of(env)
         self._every = _check.integer("every", every, 1, 2**20)
         self._shelf = Shelf(folder, on_replay)

@@ -1,6 +1,6 @@
 //! Resets, from Python's arguments.
 
-use super::SkiBatch;
+use super::TaskBatch;
 use crate::arrays::rows;
 use crate::calls::away;
 use crate::errors::refused;
@@ -13,7 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::borrow::Cow;
 
-impl SkiBatch {
+impl TaskBatch {
     /// Begins episodes and returns all observations.
     pub(super) fn begin<'py>(
         &mut self,
@@ -89,10 +89,11 @@ pub(super) fn courses(
         }
     }
     if let Some(goal) = goal {
-        let (numbers, columns) = rows(py, "goal", &goal, &[2])?;
+        let (numbers, columns) = rows(py, "goal", &goal, &[2, 3])?;
         check_rows("goal", numbers.len() / columns, n)?;
         for (course, row) in courses.iter_mut().zip(numbers.chunks_exact(columns)) {
             course.goal = point("goal", row)?;
+            course.goal_height = row.get(2).copied().filter(|z| course.goal.is_some() && !z.is_nan());
         }
     }
     if let Some(terrain) = terrain {

@@ -1,19 +1,19 @@
 //! Actions from numpy: read where they lie if they can be, else refused or made readable.
 
-use discjump_core::task::{ACTION_SIZE, ActionKind, Actions};
+use discjump_core::task::{ActionKind, Actions};
 use numpy::ndarray::{Dimension, Ix1, Ix2};
 use numpy::{Element, PyArray, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// The actions of `n` environments in an array of shape (n, [`ACTION_SIZE`]) that can be read in place.
-pub(super) fn of_batch<'a>(value: &'a Bound<'_, PyAny>, n: usize) -> Option<Actions<'a>> {
-    of_shape::<Ix2>(value, &[n, ACTION_SIZE])
+/// The actions of `n` environments in an array of shape (n, size) that can be read in place.
+pub(super) fn of_batch<'a>(value: &'a Bound<'_, PyAny>, [n, size]: [usize; 2]) -> Option<Actions<'a>> {
+    of_shape::<Ix2>(value, &[n, size])
 }
 
-/// The action of one environment in an array of shape ([`ACTION_SIZE`],) that can be read in place.
-pub(super) fn of_one<'a>(value: &'a Bound<'_, PyAny>) -> Option<Actions<'a>> {
-    of_shape::<Ix1>(value, &[ACTION_SIZE])
+/// The action of one environment in an array of shape (size,) that can be read in place.
+pub(super) fn of_one<'a>(value: &'a Bound<'_, PyAny>, size: usize) -> Option<Actions<'a>> {
+    of_shape::<Ix1>(value, &[size])
 }
 
 /// An array that [`of_batch`] reads, from whatever numpy makes an array of.
@@ -22,13 +22,13 @@ pub(super) fn of_one<'a>(value: &'a Bound<'_, PyAny>) -> Option<Actions<'a>> {
 /// If it has another dtype or shape.
 pub(super) fn readable<'py>(
     value: &Bound<'py, PyAny>,
-    n: usize,
+    [n, size]: [usize; 2],
     kind: ActionKind,
 ) -> PyResult<Bound<'py, PyAny>> {
     let numpy = value.py().import("numpy")?;
     let ragged = |_| {
         PyValueError::new_err(format!(
-            "actions: expected numbers in rows of one length, shape ({n}, {ACTION_SIZE}), got a ragged sequence"
+            "actions: expected numbers in rows of one length, shape ({n}, {size}), got a ragged sequence"
         ))
     };
     let array = numpy.call_method1("asarray", (value,)).map_err(ragged)?.cast_into::<PyUntypedArray>()?;
@@ -43,7 +43,7 @@ pub(super) fn readable<'py>(
         };
         let dtype = array.dtype().to_string();
         let message = format!(
-            "actions: expected an array of {wanted}, shape ({n}, {ACTION_SIZE}), got {dtype} {}",
+            "actions: expected an array of {wanted}, shape ({n}, {size}), got {dtype} {}",
             array.getattr("shape")?
         );
         if wanted.contains(&dtype) && array.ndim() != 2 {
@@ -51,9 +51,9 @@ pub(super) fn readable<'py>(
         }
         return Err(PyTypeError::new_err(message));
     }
-    if array.shape() != [n, ACTION_SIZE] {
+    if array.shape() != [n, size] {
         return Err(PyValueError::new_err(format!(
-            "actions: expected shape ({n}, {ACTION_SIZE}), got {:?}",
+            "actions: expected shape ({n}, {size}), got {:?}",
             array.shape()
         )));
     }

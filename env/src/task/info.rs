@@ -3,7 +3,7 @@
 use super::columns::{Mask, Spread};
 use crate::arrays::{Column, Lent};
 use discjump_core::batch::{Environments, Status, StatusOutput};
-use discjump_core::task::Outcome;
+use discjump_core::task::{Grounds, Outcome};
 use numpy::ndarray::Ix1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
@@ -38,6 +38,23 @@ const END: [(&str, Value); 10] = [
     ("start_distance", Value::Real(|o| o.start_distance)),
 ];
 
+/// What the end of an episode adds on some grounds, with so many levels.
+pub(super) fn columns(grounds: Grounds, levels: usize) -> Vec<(&'static str, Value)> {
+    let mut columns = END.to_vec();
+    match grounds {
+        Grounds::Beacon => {}
+        Grounds::Marker => columns.push(("marker_height", Value::Real(|o| o.rise))),
+        Grounds::Stands => {
+            columns.push(("carrying", Value::Flag(|o| o.carried)));
+            columns.push(("flags_taken", Value::Count(|o| o.taken)));
+        }
+    }
+    if levels > 1 {
+        columns.push(("level", Value::Count(|o| o.level)));
+    }
+    columns
+}
+
 /// The infos of a batch.
 pub(super) struct Infos {
     /// A key for each of [`STEP`].
@@ -49,7 +66,7 @@ pub(super) struct Infos {
     time: Column<f64>,
     outside: Column<bool>,
     masks: [Mask; 4],
-    /// Columns of ended episodes: of [`STEP`], then of [`END`].
+    /// Columns of ended episodes: of [`STEP`], then of its end.
     spreads: Vec<Spread>,
 }
 
@@ -74,11 +91,11 @@ impl Now<'_> {
 }
 
 impl Infos {
-    /// Infos of `n` environments.
+    /// Infos of `n` environments, with what the end of an episode adds.
     ///
     /// # Errors
     /// If numpy fails.
-    pub(super) fn new(py: Python<'_>, n: usize) -> PyResult<Self> {
+    pub(super) fn new(py: Python<'_>, n: usize, ends: &[(&'static str, Value)]) -> PyResult<Self> {
         let shape = Ix1(n);
         // One for all keys of all steps, so it refuses to be changed.
         let everyone = numpy::PyArray1::from_vec(py, vec![true; n]);
@@ -90,7 +107,7 @@ impl Infos {
             blank.set_item(key, py.None())?;
             blank.set_item(mask.key(py), &everyone)?;
         }
-        let spreads = STEP.iter().chain(&END).map(|&(key, value)| Spread::new(py, key, value, n)).collect();
+        let spreads = STEP.iter().chain(ends).map(|&(key, value)| Spread::new(py, key, value, n)).collect();
         Ok(Self {
             keys,
             blank: blank.unbind(),

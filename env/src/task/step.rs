@@ -1,8 +1,8 @@
 //! One decision, as each front end wants it back.
 
-use super::SkiBatch;
+use super::TaskBatch;
 use super::actions::{of_batch, of_one, readable};
-use super::info::Infos;
+use super::info::{Infos, Value};
 use crate::arrays::{Buffers, Column};
 use crate::calls::{away, here};
 use discjump_core::batch::{Autoreset, Rewards, Status, StatusOutput, StepOutput};
@@ -33,7 +33,12 @@ pub(super) struct Outputs {
 
 impl Outputs {
     /// For `n` environments with `row` numbers in an observation.
-    pub(super) fn new(py: Python<'_>, n: usize, row: usize) -> PyResult<Self> {
+    pub(super) fn new(
+        py: Python<'_>,
+        n: usize,
+        row: usize,
+        ends: &[(&'static str, Value)],
+    ) -> PyResult<Self> {
         Ok(Self {
             observations: Buffers::new(Ix2(n, row)),
             row: Buffers::new(Ix1(row)),
@@ -43,7 +48,7 @@ impl Outputs {
             truncated: Buffers::new(Ix1(n)),
             dones: Buffers::new(Ix1(n)),
             scratch: Vec::new(),
-            infos: Infos::new(py, n)?,
+            infos: Infos::new(py, n, ends)?,
         })
     }
 }
@@ -64,13 +69,17 @@ pub(super) type FlatStep<'py> =
 /// Observation, reward, terminated, truncated, info.
 pub(super) type SingleStep<'py> = (Bound<'py, PyArray1<f32>>, f64, bool, bool, Bound<'py, PyDict>);
 
-impl SkiBatch {
+impl TaskBatch {
+    fn action_shape(&self) -> [usize; 2] {
+        [self.batch.len(), self.batch.action_bins().len()]
+    }
+
     pub(super) fn step_columns<'py>(
         &mut self,
         py: Python<'py>,
         actions: &Bound<'py, PyAny>,
     ) -> PyResult<Step<'py>> {
-        let (n, kind) = (self.batch.len(), self.batch.action_kind());
+        let (shape, kind) = (self.action_shape(), self.batch.action_kind());
         let mut observations = self.outputs.observations.take(py);
         let mut rewards = self.outputs.rewards.take(py);
         let mut terminated = self.outputs.terminated.take(py);
@@ -83,7 +92,7 @@ impl SkiBatch {
             truncated: truncated.contents(),
             status: Some(now.output()),
         };
-        with_actions(actions, n, kind, |actions| self.play(py, actions, output))?;
+        with_actions(actions, shape, kind, |actions| self.play(py, actions, output))?;
         self.remember(observations.contents());
         let info = self.outputs.infos.everyone(py, now)?;
         if !self.batch.finished().is_empty() {
@@ -103,7 +112,7 @@ impl SkiBatch {
         py: Python<'py>,
         actions: &Bound<'py, PyAny>,
     ) -> PyResult<FlatStep<'py>> {
-        let (n, kind) = (self.batch.len(), self.batch.action_kind());
+        let (n, shape, kind) = (self.batch.len(), self.action_shape(), self.batch.action_kind());
         let mut observations = self.outputs.observations.take(py);
         let mut rewards = self.outputs.rounded.take(py);
         let mut dones = self.outputs.dones.take(py);
@@ -116,7 +125,7 @@ impl SkiBatch {
             truncated: &mut truncated,
             status: None,
         };
-        let played = with_actions(actions, n, kind, |actions| self.play(py, actions, output));
+        let played = with_actions(actions, shape, kind, |actions| self.play(py, actions, output));
         dones.contents().iter_mut().zip(&truncated).for_each(|(done, &truncated)| *done |= truncated);
         self.outputs.scratch = truncated;
         played?;
@@ -145,12 +154,13 @@ impl SkiBatch {
                 outside: &mut outside,
             }),
         };
-        match of_one(action) {
+        let [_, size] = self.action_shape();
+        match of_one(action, size) {
             Some(action) => self.play(py, action, output)?,
             None => {
                 let kind = self.batch.action_kind();
                 let row = action.get_item(py.None())?;
-                with_actions(&row, 1, kind, |action| self.play(py, action, output))?;
+                with_actions(&row, [1, size], kind, |action| self.play(py, action, output))?;
             }
         }
         let info = match self.batch.finished() {
@@ -198,13 +208,13 @@ impl SkiBatch {
 /// Calls with the actions in `value`, copied first where they cannot be read in place.
 fn with_actions(
     value: &Bound<'_, PyAny>,
-    n: usize,
+    shape: [usize; 2],
     kind: ActionKind,
     call: impl FnOnce(Actions<'_>) -> PyResult<()>,
 ) -> PyResult<()> {
-    if let Some(actions) = of_batch(value, n) {
+    if let Some(actions) = of_batch(value, shape) {
         return call(actions);
     }
-    let copied = readable(value, n, kind)?;
-    call(of_batch(&copied, n).expect("made readable"))
+    let copied = readable(value, shape, kind)?;
+    call(of_batch(&copied, shape).expect("made readable"))
 }

@@ -1,19 +1,21 @@
-"""Options of the ski task, in one typed place."""
+"""Options that every task has, in one typed place."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from discjump import _check
-from discjump._native import SkiBatch, Terrain
+from discjump._native import TaskBatch, Terrain
 from discjump.simulator import ARMORS, FIDELITIES, Physics
 from discjump.terrains import SURFACES, TRAINING_SEEDS, checked_seeds, pool
 
-REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0}
-"""Default weights: per metre nearer to the beacon, per second, once on arrival."""
+REWARD = {"progress": 0.02, "time": -0.15625, "arrival": 5.0, "death": 0.0, "climb": 0.0}
+"""Default weights: per metre nearer to the goal, per second, once on arrival, once on
+death; and how many metres of distance
+a metre of height counts that the player's flight will lack, for goals in the air."""
 
 FAN_BEARINGS = (0.0, 30.0, -30.0)
 """Default bearings of the fan, degrees, 0 ahead, positive left: chosen by what learns best (README, Results).
@@ -25,22 +27,37 @@ FAN_RANGES = (10.0, 25.0, 50.0, 90.0)
 """Default ranges of the fan, m."""
 
 ACTIONS = ("multi_discrete", "box")
+DIFFICULTIES = ("easy", "standard", "hard")
+
+
+class Level(NamedTuple):
+    """A distribution that episodes are drawn from."""
+
+    goal_distance: tuple[float, float]
+    """Least and largest distance of the goal, m: on the map, of a marker the height over the ground."""
+    start_speed: float
+    """Largest speed at the start, m/s."""
+    start_height: float = 0.0
+    """Largest height of the start over the ground, m."""
+    aside: float = 0.0
+    """Largest distance of a marker on the map, m."""
+    from_stand: bool = False
+    """The start is the player's own flag stand."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class SkiOptions:
-    """Keyword arguments of `discjump/Ski-v0`, checked and normalised when made.
+class TaskOptions:
+    """Keyword arguments of an environment, checked and normalised when made. A task's own class adds to them.
 
     Raises:
         TypeError: an argument of the wrong type, or an unknown one (through `from_keywords`).
         ValueError: an argument out of its range; the message names it, what was expected and what came.
-
-    >>> SkiOptions(frame_skip=2).decision_seconds
-    0.064
-    >>> SkiOptions(time_limit=-1)
-    Traceback (most recent call last):
-    ValueError: time_limit: expected a number in (0, 3600] s, got -1
     """
+
+    GROUNDS: ClassVar[str]
+    """What kind of goal there is: `beacon`, `marker` or `stands`."""
+    REWARD: ClassVar[Mapping[str, float]] = REWARD
+    """Default weights of the reward."""
 
     terrain_seeds: Sequence[int] = TRAINING_SEEDS
     """Seeds of the generated terrains that episodes draw from; 16 by default."""
@@ -84,16 +101,27 @@ class SkiOptions:
     """Length of an episode, s; it ends truncated."""
 
     arrival_radius: float = 8.0
-    """Horizontal distance of the path to the beacon that counts as arrival, m."""
+    """Distance of the path to the goal that counts as arrival, m: to a beacon horizontal, to a goal in the
+    air or on a stand in space, from the player's feet.
+    """
 
-    goal_distance: tuple[float, float] = (300.0, 800.0)
-    """Least and largest horizontal distance from start to beacon when they are drawn, m."""
+    difficulty: str = "standard"
+    """Where starts and goals are drawn from: `easy`, `standard` or `hard`; see the task's `LEVELS`. An option
+    that fixes one of these itself goes before it.
+    """
 
-    start_speed: float = 10.0
-    """Largest speed at the start, m/s; 0: always at rest."""
+    curriculum: bool = False
+    """Each environment begins `easy`, goes up to the next difficulty after 3 successes in a row, and down
+    after 3 failures. `difficulty` is not asked for then.
+    """
 
-    reward: Mapping[str, float] = field(default_factory=lambda: REWARD)
-    """Weights that differ from `REWARD`: `progress` (per m), `time` (per s), `arrival`."""
+    start_speed: float | None = None
+    """Largest speed at the start, m/s; 0: always at rest. None: the difficulty's."""
+
+    reward: Mapping[str, float] = field(default_factory=dict)
+    """Weights that differ from the task's `REWARD`: `progress` (per m), `time` (per s), `arrival`, `death`,
+    `climb` (see `discjump.envs.options.REWARD`).
+    """
 
     fan_bearings: Sequence[float] | NDArray[np.float64] = FAN_BEARINGS
     """Bearings of the fan (rise of the terrain over range, dimensionless), degrees, 0 ahead, positive left;
@@ -125,9 +153,11 @@ class SkiOptions:
         put(self, "time_limit", _check.real("time_limit", self.time_limit, 0, 3600, "s", open_low=True))
         radius = _check.real("arrival_radius", self.arrival_radius, 0, 1000, "m", open_low=True)
         put(self, "arrival_radius", radius)
-        put(self, "goal_distance", _goal_distance(self.goal_distance))
-        put(self, "start_speed", _check.real("start_speed", self.start_speed, 0, 100, "m/s"))
-        put(self, "reward", _reward(self.reward))
+        _check.choice("difficulty", self.difficulty, DIFFICULTIES)
+        put(self, "curriculum", _check.flag("curriculum", self.curriculum))
+        if self.start_speed is not None:
+            put(self, "start_speed", _check.real("start_speed", self.start_speed, 0, 100, "m/s"))
+        put(self, "reward", _reward(self.reward, self.REWARD))
         put(self, "fan_bearings", _fan("fan_bearings", self.fan_bearings, -180, 180, "degrees"))
         put(self, "fan_ranges", _fan("fan_ranges", self.fan_ranges, 1, 2000, "m"))
         put(self, "landing", _check.flag("landing", self.landing))
@@ -136,6 +166,7 @@ class SkiOptions:
     def from_keywords(cls, keywords: Mapping[str, Any]) -> Self:
         """Options from keyword arguments; an unknown one raises a TypeError that lists the known ones.
 
+        >>> from discjump.envs.options import SkiOptions
         >>> SkiOptions.from_keywords({"frameskip": 2})
         Traceback (most recent call last):
         TypeError: frameskip: expected one of the options terrain_seeds, ..., got an unknown one; did you mean
@@ -155,13 +186,27 @@ class SkiOptions:
         """Time between two decisions, s."""
         return self.tick_ms * self.frame_skip / 1000
 
+    def level(self, difficulty: str) -> Level:
+        """The distribution of a difficulty, with what these options fix."""
+        raise NotImplementedError
+
+    def levels(self) -> list[Level]:
+        """The distributions that episodes go through."""
+        return [self.level(name) for name in (DIFFICULTIES if self.curriculum else (self.difficulty,))]
+
+    def extras(self) -> dict[str, Any]:
+        """What the batch is told besides: `capture`, `ammo`, `flags`."""
+        return {"capture": False, "ammo": 0, "flags": None}
+
     def pool(self) -> list[Terrain]:
         """The terrains that episodes draw from."""
         if self.terrains is not None:
             return list(self.terrains)
         return pool(self.terrain_seeds, self.repeating, self.surface or SURFACES[0])
 
-    def batch(self, num_envs: int, autoreset: str, threads: int | None, lanes: int | None = None) -> SkiBatch:
+    def batch(
+        self, num_envs: int, autoreset: str, threads: int | None, lanes: int | None = None
+    ) -> TaskBatch:
         """The simulator of `num_envs` environments.
 
         Args:
@@ -175,9 +220,10 @@ class SkiOptions:
             threads = _check.integer("threads", threads, 1, 256)
         if lanes is not None:
             lanes = _check.integer("lanes", lanes, 1, 32)
-        return SkiBatch(
+        return TaskBatch(
             self.pool(),
             _check.integer("num_envs", num_envs, 1, 2**24),
+            grounds=self.GROUNDS,
             fidelity=self.fidelity,
             armor=self.armor,
             energy_pack=self.energy_pack,
@@ -188,9 +234,15 @@ class SkiOptions:
             turn_rate=self.turn_rate,
             time_limit=self.time_limit,
             arrival_radius=self.arrival_radius,
-            goal_distance=self.goal_distance,
-            start_speed=self.start_speed,
-            reward=(self.reward["progress"], self.reward["time"], self.reward["arrival"]),
+            levels=self.levels(),
+            reward=(
+                self.reward["progress"],
+                self.reward["time"],
+                self.reward["arrival"],
+                self.reward["death"],
+                self.reward["climb"],
+            ),
+            **self.extras(),
             fan_bearings=list(self.fan_bearings),
             fan_ranges=list(self.fan_ranges),
             landing=self.landing,
@@ -200,14 +252,14 @@ class SkiOptions:
         )
 
 
-def _reward(weights: object) -> dict[str, float]:
+def _reward(weights: object, defaults: Mapping[str, float]) -> dict[str, float]:
     if not isinstance(weights, Mapping):
         raise TypeError(f"reward: expected a mapping of weights, got {weights!r}")
     _check.known("reward", weights, REWARD)
     checked = {
         name: _check.real(f"reward[{name!r}]", weight, -1e6, 1e6, "") for name, weight in weights.items()
     }
-    return REWARD | checked
+    return {**defaults, **checked}
 
 
 def _terrains(terrains: object) -> tuple[Terrain, ...] | None:
@@ -240,13 +292,14 @@ def _surface(surface: str | None, terrains: Sequence[Terrain] | None) -> str:
     return first
 
 
-def _goal_distance(span: object) -> tuple[float, float]:
-    ends = _check.sequence("goal_distance", span, "two numbers in m")
-    if len(ends) != 2:
-        raise ValueError(f"goal_distance: expected two numbers in m, got {len(ends)}")
-    low, high = (_check.real(f"goal_distance[{i}]", end, 0, 1e6, "m") for i, end in enumerate(ends))
+def span(name: str, ends: object) -> tuple[float, float]:
+    """Two numbers of metres, least and largest, checked."""
+    checked = _check.sequence(name, ends, "two numbers in m")
+    if len(checked) != 2:
+        raise ValueError(f"{name}: expected two numbers in m, got {len(checked)}")
+    low, high = (_check.real(f"{name}[{i}]", end, 0, 1e6, "m") for i, end in enumerate(checked))
     if low > high:
-        raise ValueError(f"goal_distance: expected least <= largest, got ({low:g}, {high:g})")
+        raise ValueError(f"{name}: expected least <= largest, got ({low:g}, {high:g})")
     return low, high
 
 

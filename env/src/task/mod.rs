@@ -1,4 +1,4 @@
-//! `SkiBatch`: many ski environments stepped together.
+//! `TaskBatch`: many environments of a task stepped together.
 //!
 //! * `step`: a decision, as each front end wants it back
 //! * `request`: resets
@@ -13,10 +13,11 @@ use crate::physics::PhysicsArgument;
 use crate::pools::pool;
 use crate::simulator::state_fields;
 use crate::terrain::Terrain;
-use discjump_core::batch::{Autoreset, Environments, SkiEnvironments};
+use discjump_core::batch::{Autoreset, Environments, EnvironmentsSetup};
 use discjump_core::error::InputError;
-use discjump_core::observe::{CLIP, SkiObservation};
-use discjump_core::task::{ACTION_BINS, ACTION_SIZE, ActionKind, Reward, SkiTask};
+use discjump_core::observe::{CLIP, Observation};
+use discjump_core::task::{ActionKind, Grounds, Level, Pitch, Reward, TaskRules};
+use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -38,9 +39,9 @@ type Stretch = (&'static str, usize, usize, &'static str, f64);
 /// Seeds and numbers of episodes.
 type Names<'py> = (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u64>>);
 
-/// Private: a batch of ski environments.
+/// Private: a batch of environments.
 #[pyclass(module = "discjump._native")]
-pub struct SkiBatch {
+pub struct TaskBatch {
     pub(crate) batch: Box<dyn Environments>,
     terrains: usize,
     frame_skip: usize,
@@ -53,11 +54,11 @@ pub struct SkiBatch {
 }
 
 #[pymethods]
-impl SkiBatch {
+impl TaskBatch {
     #[new]
-    #[pyo3(signature = (terrains, num_envs, *, fidelity, armor, energy_pack, physics, tick_ms, frame_skip, actions,
-        turn_rate, time_limit, arrival_radius, goal_distance, start_speed, reward, fan_bearings, fan_ranges, landing,
-        autoreset, threads, lanes))]
+    #[pyo3(signature = (terrains, num_envs, *, grounds, fidelity, armor, energy_pack, physics, tick_ms, frame_skip,
+        actions, turn_rate, time_limit, arrival_radius, levels, capture, ammo, flags, reward, fan_bearings,
+        fan_ranges, landing, autoreset, threads, lanes))]
     #[expect(
         clippy::too_many_arguments,
         reason = "keyword arguments that the package fills from its options"
@@ -66,6 +67,7 @@ impl SkiBatch {
         py: Python<'_>,
         terrains: Vec<PyRef<'_, Terrain>>,
         num_envs: usize,
+        grounds: &str,
         fidelity: String,
         armor: String,
         energy_pack: bool,
@@ -76,9 +78,11 @@ impl SkiBatch {
         turn_rate: f64,
         time_limit: f64,
         arrival_radius: f64,
-        goal_distance: (f64, f64),
-        start_speed: f64,
-        reward: (f64, f64, f64),
+        levels: Vec<LevelArgument>,
+        capture: bool,
+        ammo: i32,
+        flags: Option<[[f64; 3]; 2]>,
+        reward: (f64, f64, f64, f64, f64),
         fan_bearings: Vec<f64>,
         fan_ranges: Vec<f64>,
         landing: bool,
@@ -92,40 +96,48 @@ impl SkiBatch {
                 "time_limit: expected 1 to 1e9 ticks of {tick_ms} ms, got {time_limit} s"
             )));
         }
-        let (progress, time, arrival) = reward;
+        let (progress, time, arrival, death, climb) = reward;
+        let grounds = grounds_of(grounds)?;
+        let pitches = terrains.iter().enumerate().map(|(k, t)| pitch(k, t, grounds, flags));
+        let mission = grounds == Grounds::Stands && terrains.iter().any(|t| t.solids.built.is_some());
+        let solids = terrains.iter().filter(|_| mission).map(|t| t.solids.built.clone().unwrap_or_default());
         let fields: Vec<_> = terrains.iter().map(|t| &t.heightfield).collect();
         let autoreset = autoreset_mode(autoreset)?;
-        let setup = SkiEnvironments {
+        let setup = EnvironmentsSetup {
             maps: pool(&fields)?,
-            areas: terrains.iter().map(|t| t.area()).collect(),
+            grounds,
+            pitches: pitches.collect::<PyResult<_>>()?,
+            solids: solids.collect(),
+            ammo,
             count: num_envs,
             fidelity,
             armor,
             energy_pack,
             physics: physics.switches()?,
             tick_ms,
-            task: SkiTask {
+            task: TaskRules {
                 frame_skip,
                 time_limit: ticks.round() as i32,
                 arrival_radius,
-                goal_distance,
-                start_speed,
                 turn_rate,
-                reward: Reward { progress, time, arrival },
+                reward: Reward { progress, time, arrival, death, climb },
+                capture,
+                levels: levels.into_iter().map(Level::from).collect(),
             },
             actions: action_kind(actions)?,
-            observation: SkiObservation::new(&fan_bearings, &fan_ranges, landing).map_err(refused)?,
+            observation: Observation::new(&fan_bearings, &fan_ranges, landing).map_err(refused)?,
             autoreset,
             threads,
             lanes,
         };
+        let columns = info::columns(grounds, setup.task.levels.len());
         let batch = setup.build().map_err(refused)?;
         Ok(Self {
             terrains: fields.len(),
             frame_skip: frame_skip as usize,
             autoreset,
             life: Life::new(num_envs, autoreset),
-            outputs: Outputs::new(py, num_envs, batch.observation_size())?,
+            outputs: Outputs::new(py, num_envs, batch.observation_size(), &columns)?,
             kept: Vec::new(),
             batch,
         })
@@ -169,14 +181,15 @@ impl SkiBatch {
 
     /// Numbers in an action.
     #[getter]
-    fn action_size(&self) -> usize {
-        ACTION_SIZE
+    fn action_size(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(shared(slf)?.batch.action_bins().len())
     }
 
-    /// Choices of each number of a discrete action: forward, strafe, jump, jet, turn.
+    /// Choices of each number of a discrete action: forward, strafe, jump, jet, turn; with a launcher also fire
+    /// and pitch.
     #[getter]
-    fn action_bins(&self) -> Vec<i64> {
-        ACTION_BINS.to_vec()
+    fn action_bins(slf: &Bound<'_, Self>) -> PyResult<Vec<i64>> {
+        Ok(shared(slf)?.batch.action_bins().to_vec())
     }
 
     /// (name, first, end, unit, scale) of every stretch of an observation.
@@ -300,7 +313,7 @@ impl SkiBatch {
         structured(slf.py(), &state_fields(&this.batch.state_fields()), &this.batch.state())
     }
 
-    /// World positions of the beacons, float64 (num_envs, 3), m; z is the ground's height.
+    /// World positions of the goals, float64 (num_envs, 3), m; a beacon's z is the ground's height.
     fn goals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let goals = reading(slf)?.batch.goals();
         array1(slf.py(), goals.concat()).reshape([goals.len(), 3])
@@ -344,13 +357,13 @@ impl SkiBatch {
     }
 }
 
-impl Stepped for SkiBatch {
+impl Stepped for TaskBatch {
     fn whole(&self) -> Result<(), InputError> {
         self.batch.whole()
     }
 }
 
-impl SkiBatch {
+impl TaskBatch {
     fn final_rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let rows = self.batch.finished().len();
         array1(py, self.batch.final_observations().to_vec()).reshape([rows, self.batch.observation_size()])
@@ -363,6 +376,55 @@ impl SkiBatch {
             self.kept.extend_from_slice(observations);
         }
     }
+}
+
+/// Distances of goals, then start speed, start height, and how far aside a marker may float; whether the start is
+/// the own flag stand.
+#[derive(FromPyObject)]
+struct LevelArgument((f64, f64), f64, f64, f64, bool);
+
+impl From<LevelArgument> for Level {
+    fn from(level: LevelArgument) -> Self {
+        let LevelArgument(goal_distance, start_speed, start_height, aside, from_stand) = level;
+        Self { goal_distance, start_speed, start_height, aside, from_stand }
+    }
+}
+
+fn grounds_of(name: &str) -> PyResult<Grounds> {
+    match name {
+        "beacon" => Ok(Grounds::Beacon),
+        "marker" => Ok(Grounds::Marker),
+        "stands" => Ok(Grounds::Stands),
+        _ => Err(PyValueError::new_err(format!(
+            "grounds: expected \"beacon\", \"marker\" or \"stands\", got {name:?}"
+        ))),
+    }
+}
+
+/// Where episodes take place on a terrain: with its own flags, or those given, on the ground where their height
+/// is NaN.
+fn pitch(k: usize, terrain: &Terrain, grounds: Grounds, flags: Option<[[f64; 3]; 2]>) -> PyResult<Pitch> {
+    let area = terrain.area();
+    if grounds != Grounds::Stands {
+        return Ok(Pitch::bare(area));
+    }
+    let stands = match (flags, terrain.flag_stands()) {
+        (Some(flags), _) => {
+            let mut stands = flags;
+            for flag in stands.iter_mut().filter(|flag| flag[2].is_nan()) {
+                flag[2] = terrain.ground("flags", flag[0], flag[1])?.height;
+            }
+            stands
+        }
+        (None, Some(stands)) => stands,
+        (None, None) => {
+            return Err(PyValueError::new_err(format!(
+                "terrains[{k}]: expected one with a mission, as generated ones have, or flags=((x, y), (x, y)); got \
+                 one without flags"
+            )));
+        }
+    };
+    Ok(Pitch { area, stands: stands.map(DVec3::from) })
 }
 
 fn action_kind(name: &str) -> PyResult<ActionKind> {

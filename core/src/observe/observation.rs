@@ -1,15 +1,16 @@
-//! The observation of the ski task.
+//! The observation: numbers that every task has, and what its scene and its goal add.
 
 use super::landing::{HORIZON, landing};
 use super::rows::{Columns, Rows};
 use super::seen_ground;
 use crate::armor::{GRAVITY, JUMP_GRACE_MS};
+use crate::arms::{Arms, Arsenal};
 use crate::error::{InputError, refuse};
 use crate::player::Player;
-use crate::real::{Int, Mask, Real};
+use crate::real::{Int, Mask, Real, V3};
 use crate::rules::Rules;
 use crate::scene::{Group, Scene};
-use crate::task::Run;
+use crate::task::{Kind, OUTSIDE_MS, Run, apex};
 use crate::terrain::Surface;
 
 /// Observations lie in [-CLIP, CLIP].
@@ -30,9 +31,28 @@ pub struct LayoutField {
     pub scale: f64,
 }
 
+/// What is observed: players side by side, and what is known of their worlds.
+#[derive(Debug)]
+pub struct Seen<'a, S: Scene, K: Kind, R: Real> {
+    /// The players.
+    pub player: &'a Player<S, R>,
+    /// Their launchers, where they have any.
+    pub arms: Option<&'a Arms<R>>,
+    /// Their runs.
+    pub run: &'a Run<K, R>,
+    /// The ground.
+    pub surface: &'a Surface<'a, R::Scalar>,
+    /// The batch's rules.
+    pub rules: &'a Rules<R::Scalar>,
+    /// Constants of the launcher.
+    pub arsenal: &'a Arsenal<R::Scalar>,
+    /// What stands for the height of ground that does not exist, m.
+    pub lowest: R,
+}
+
 /// Which observation a batch makes: horizontal vectors are (forward, right) of the player's yaw.
 #[derive(Clone, Debug)]
-pub struct SkiObservation {
+pub struct Observation {
     /// Unit (forward, right) of every bearing.
     bearings: Vec<[f64; 2]>,
     ranges: Vec<f64>,
@@ -47,8 +67,10 @@ const DISTANCE: f64 = 400.0;
 /// Half-way points of the bending features h / (h + 3 m) and 30 m / (30 m + d).
 const LOW: f64 = 3.0;
 const NEAR: f64 = 30.0;
+/// What is close: the reach of an explosion, and somewhat more, m.
+const CLOSE: f64 = 10.0;
 
-impl SkiObservation {
+impl Observation {
     /// An observation with a fan of terrain at every bearing (degrees, 0 ahead, positive to the left)
     /// and range (metres): its height over the ground below the player, over the range. So the fan is
     /// the shape of the ground, about [-1, 1], whatever the player's own height (which stands beside
@@ -82,15 +104,20 @@ impl SkiObservation {
 
     /// The layout of a row.
     #[must_use]
-    pub fn layout<S: Scene>(&self, max_energy: f64, max_damage: f64) -> Vec<LayoutField> {
+    pub fn layout<S: Scene, K: Kind>(&self, max_energy: f64, max_damage: f64) -> Vec<LayoutField> {
         let mut layout = Vec::new();
         let mut add = |name, count, unit, scale| layout.push(LayoutField { name, count, unit, scale });
         add("velocity", 3, "m/s", SPEED);
         add("speed", 1, "m/s", SPEED);
-        add("beacon_direction", 2, "", 1.0);
-        add("beacon_distance", 1, "m", DISTANCE);
-        add("beacon_nearness", 1, "", 1.0);
-        add("beacon_height", 1, "m", HEIGHT);
+        let [direction, distance, nearness, height] = if K::ALOFT {
+            ["goal_direction", "goal_distance", "goal_nearness", "goal_height"]
+        } else {
+            ["beacon_direction", "beacon_distance", "beacon_nearness", "beacon_height"]
+        };
+        add(direction, 2, "", 1.0);
+        add(distance, 1, "m", DISTANCE);
+        add(nearness, 1, "", 1.0);
+        add(height, 1, "m", HEIGHT);
         add("closing_speed", 1, "m/s", SPEED);
         add("lateral_speed", 1, "m/s", SPEED);
         add("ground_normal", 2, "", 1.0);
@@ -118,6 +145,22 @@ impl SkiObservation {
         if self.samples() > 0 {
             add("fan", self.samples(), "", 1.0);
         }
+        if K::ALOFT {
+            add("goal_near", 3, "m", CLOSE);
+            add("apex_gap", 1, "m", CLEARANCE);
+        }
+        if S::Arms::<f32>::MODELED {
+            add("reload", 1, "", 1.0);
+            add("ammo", 1, "", 1.0);
+            add("disc", 3, "m", CLOSE);
+            add("disc_flying", 1, "", 1.0);
+        }
+        if K::Flag::<f32>::MODELED {
+            add("carrying", 1, "", 1.0);
+            add("outside_time", 1, "s", f64::from(OUTSIDE_MS) / 1000.0);
+            add("axis", 2, "", 1.0);
+            add("axis_distance", 1, "m", DISTANCE);
+        }
         layout
     }
 
@@ -129,28 +172,23 @@ impl SkiObservation {
 
     /// Numbers in a row.
     #[must_use]
-    pub fn size<S: Scene>(&self) -> usize {
-        self.layout::<S>(1.0, 1.0).iter().map(|f| f.count).sum()
+    pub fn size<S: Scene, K: Kind>(&self) -> usize {
+        self.layout::<S, K>(1.0, 1.0).iter().map(|f| f.count).sum()
     }
 
-    /// Writes the rows of the first `players` lanes, one after the other. `lowest` stands for the height
-    /// of ground that does not exist.
+    /// Writes the rows of the first `players` lanes, one after the other.
     ///
     /// # Panics
-    /// If `rows` is not so many times [`SkiObservation::size`] long.
+    /// If `rows` is not so many times [`Observation::size`] long.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a player, his run and his world, each of its own type")]
-    pub fn write<S: Scene, R: Real>(
+    pub fn write<S: Scene, K: Kind, R: Real>(
         &self,
-        p: &Player<S, R>,
-        run: &Run<R>,
-        surface: &Surface<'_, R::Scalar>,
-        rules: &Rules<R::Scalar>,
-        lowest: R,
+        seen: &Seen<'_, S, K, R>,
         rows: &mut [f32],
         players: usize,
         columns: &mut Columns<R>,
     ) {
+        let Seen { player: p, run, surface, rules, lowest, .. } = *seen;
         let (zero, one) = (R::zero(), R::lit(1.0));
         let (sin, cos) = p.yaw.sin_cos();
         let v = p.velocity;
@@ -221,8 +259,69 @@ impl SkiObservation {
                 row.push((z - below) / range, one);
             }
         }
+        if K::ALOFT {
+            let (forward, right) = turned(bx, by, sin, cos);
+            let close = R::lit(1.0 / CLOSE);
+            row.push(forward, close);
+            row.push(right, close);
+            row.push(run.goal.z - p.position.z, close);
+            row.push(run.goal.z - apex(p), R::lit(1.0 / CLEARANCE));
+        }
+        if let Some(arms) = seen.arms {
+            write_arms(&mut row, arms, seen, (sin, cos));
+        }
+        if let Some(flag) = run.flag.as_ref() {
+            let ticks = R::from_int(flag.outside) * R::splat(rules.dt);
+            row.push(R::select(flag.carried, one, zero), one);
+            row.push(ticks, R::lit(1000.0 / f64::from(OUTSIDE_MS)));
+            // The way from the stand that is left to the one that is sought: bases open along it.
+            let ahead = flag.enemy - flag.home;
+            let ahead = V3::select(flag.carried, V3::zero() - ahead, ahead);
+            let apart = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(R::lit(1e-3));
+            let (ax, ay) = (ahead.x / apart, ahead.y / apart);
+            let (forward, right) = turned(ax, ay, sin, cos);
+            row.push(forward, one);
+            row.push(right, one);
+            row.push(bx * ay - by * ax, R::lit(1.0 / DISTANCE));
+        }
         row.finish();
     }
+}
+
+/// The launcher: how far it is from ready, what is left in it, and the last disc under way.
+#[inline(always)]
+fn write_arms<S: Scene, K: Kind, R: Real>(
+    row: &mut Rows<'_, R>,
+    arms: &Arms<R>,
+    seen: &Seen<'_, S, K, R>,
+    (sin, cos): (R, R),
+) {
+    let (zero, one) = (R::zero(), R::lit(1.0));
+    let arsenal = seen.arsenal;
+    row.push(R::from_int(arms.cooldown) / R::from_int(R::Int::splat(arsenal.cycle.max(1))), one);
+    row.push(R::from_int(arms.ammo) / R::from_int(R::Int::splat(arsenal.ammo.max(1))), one);
+    let mut youngest = R::Int::splat(i32::MAX);
+    let mut there = V3::zero();
+    let mut any = R::Mask::splat(false);
+    for slot in &arms.slots {
+        let flying = slot.flying();
+        if !flying.any() {
+            continue;
+        }
+        let newer = flying.and(slot.age.lt(youngest));
+        let tiles = [slot.tile_x - seen.player.tile_x, slot.tile_y - seen.player.tile_y];
+        let (x, y) = seen.surface.tiles_apart::<R>(tiles[0], tiles[1]);
+        let way = slot.position - seen.player.position + V3::new(x, y, zero);
+        there = V3::select(newer, way, there);
+        youngest = R::Int::select(newer, slot.age, youngest);
+        any = any.or(flying);
+    }
+    let (forward, right) = turned(there.x, there.y, sin, cos);
+    let close = R::lit(1.0 / CLOSE);
+    row.push(forward, close);
+    row.push(right, close);
+    row.push(there.z, close);
+    row.push(R::select(any, one, zero), one);
 }
 
 /// (forward, right) parts of a horizontal vector, for the sine and cosine of the yaw.

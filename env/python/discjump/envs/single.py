@@ -1,4 +1,4 @@
-"""`discjump/Ski-v0` for one environment."""
+"""One environment of any task."""
 
 from typing import Any, ClassVar
 
@@ -8,8 +8,8 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
-from discjump.envs.options import SkiOptions
-from discjump.envs.task import ObservationField, SkiTask, seeds_of
+from discjump.envs.options import TaskOptions
+from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
 
 RENDER_MODES = ("rgb_array",)
 
@@ -23,43 +23,33 @@ def checked_render_mode(mode: object) -> str | None:
     return str(mode)
 
 
-class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
-    """Ski to the beacon, as fast as you can.
-
-    An episode starts in the mission area of a terrain from the pool, at rest or at a small speed, with the
-    beacon 300-800 m away. It terminates on arrival or on death by landing damage, and is truncated after 60
-    s. An action holds for `frame_skip` ticks.
+class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
+    """An environment of a task; each task has its own class in `discjump.envs.named`.
 
     Args:
         lanes: as for many environments; no bit depends on it.
         render_mode: None or `rgb_array`, the command map.
-        **options: fields of `discjump.envs.options.SkiOptions`.
+        **options: fields of the task's options.
 
     Attributes:
         observation_space: `Box` of shape (size,), float32; `observation_layout` says what each number is.
-        action_space: `MultiDiscrete` of forward, strafe, jump, jet, turn, or `Box` with `actions="box"`.
+        action_space: `MultiDiscrete` of forward, strafe, jump, jet, turn, and with a launcher fire and pitch;
+            or `Box` with `actions="box"`.
         observation_layout: list of (name, slice, unit, scale); value in unit = observation * scale.
 
     Raises:
         TypeError, ValueError: naming the option, what was expected and what came.
-
-    >>> import gymnasium, discjump
-    >>> env = gymnasium.make("discjump/Ski-v0", terrain_seeds=[0])
-    >>> observation, info = env.reset(seed=1, options={"start": (0.0, 0.0), "goal": (0.0, 400.0)})
-    >>> round(info["distance"])
-    400
-    >>> observation, reward, terminated, truncated, info = env.step(np.array([2, 1, 1, 0, 3]))
-    >>> sorted(info)
-    ['distance', 'outside_mission_area', 'speed', 'time']
     """
+
+    OPTIONS: ClassVar[type[TaskOptions]]
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 7.8125}  # type: ignore[misc]
 
     def __init__(self, *, lanes: int | None = None, render_mode: str | None = None, **options: Any) -> None:
         self.render_mode = checked_render_mode(render_mode)
-        self.options = SkiOptions.from_keywords(options)
+        self.options = self.OPTIONS.from_keywords(options)
         self.metadata = {**type(self).metadata, "render_fps": 1 / self.options.decision_seconds}  # type: ignore[misc]
-        self._task = SkiTask(
+        self._task = TaskEnvs(
             self.options,
             1,
             autoreset="disabled",
@@ -88,7 +78,9 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
         return state
 
     def goal(self) -> NDArray[np.float64]:
-        """Position of the beacon on the ground, (3,), m."""
+        """Position of the goal, (3,), m: of a beacon on the ground, of a marker in the air, of a flag on its
+        stand.
+        """
         goal: NDArray[np.float64] = self._task.batch.goals()[0]
         return goal
 
@@ -99,8 +91,8 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
 
         Args:
             seed: 0 to 2**64 - 1; None: the next episode of the last seed.
-            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y) in m, `terrain_seed` from the pool; what
-                is left out is drawn.
+            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m,
+                `terrain_seed` from the pool; what is left out is drawn.
 
         Returns:
             Observation (size,) float32, and info (see `discjump.envs.infos`).
@@ -114,8 +106,8 @@ class SkiEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
         """One decision.
 
         Args:
-            action: (5,), an element of `action_space`; an array must have an integer dtype (float32 with
-                `actions="box"`).
+            action: (5,) or, with a launcher, (7,), an element of `action_space`; an array must have an
+                integer dtype (float32 with `actions="box"`).
 
         Returns:
             Observation (size,) float32, reward, terminated, truncated, info.
