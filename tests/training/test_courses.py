@@ -33,7 +33,12 @@ PUBLISHED = {
     "ski-public-v1": (range(20_000, 20_008), 20_000_000_000, 128),
 }
 #: Digests of public courses, frozen likewise.
-DIGESTS = {"ski-public-v1": "1ae67b525bb976f4"}
+DIGESTS = {
+    "ski-public-v1": "1ae67b525bb976f4",
+    "disc-jump-public-v1": "de3030ca499125d4",
+    "route-public-v1": "045c8d8c6195e645",
+    "flag-run-public-v1": "e410a7ada9742839",
+}
 
 
 def test_courses_are_the_published_ones():

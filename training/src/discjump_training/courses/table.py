@@ -87,6 +87,14 @@ ROWS = {
     one.task: one
     for one in (
         Row("ski", 0, band=Band("start_distance", "start distance, m", (300, 400, 500, 600, 700, 800))),
+        Row(
+            "disc-jump",
+            1,
+            False,
+            Band("marker_height", "marker height, m", (100, 130, 160, 190, 220, 250, 280)),
+        ),
+        Row("route", 2, placed=False),
+        Row("flag-run", 3, placed=False),
     )
 }
 """By task."""
