@@ -14,8 +14,11 @@ Actions = NDArray[np.int64]
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-#: Bins of the action space: forward, strafe, jump, jet, turn.
+#: Bins of the action space: forward, strafe, jump, jet, turn; of who has a launcher also fire and pitch.
 BINS = (3, 3, 2, 2, 7)
+ARMED_BINS = (*BINS, 2, 5)
+#: Lowest pitch of the view, rad: the first bin of pitch. The last is straight ahead.
+LOWEST_PITCH = -np.deg2rad(88.0)
 
 
 class Policy(Protocol):
@@ -87,3 +90,26 @@ def encode(forward: Floats, strafe: Floats, jump: Mask, jet: Mask, turn: Floats,
     most = (BINS[4] - 1) // 2
     bins = np.clip(np.rint(turn / turn_rate * most), -most, most) + most
     return np.stack([forward + 1, strafe + 1, jump, jet, bins], axis=1).astype(np.int64)
+
+
+def encode_armed(
+    forward: Floats,
+    strafe: Floats,
+    jump: Mask,
+    jet: Mask,
+    turn: Floats,
+    fire: Mask,
+    pitch: Floats,
+    turn_rate: float,
+) -> Actions:
+    """Actions (n, 7) from keys, a turn, the trigger and a pitch.
+
+    Args:
+        forward, strafe, jump, jet, turn, turn_rate: as in `encode`.
+        fire: trigger, shape (n,).
+        pitch: wanted pitch of the view, rad, up positive, shape (n,); rounded to the nearest bin.
+    """
+    last = ARMED_BINS[6] - 1
+    bins = np.clip(np.rint(last - last * pitch / LOWEST_PITCH), 0, last)
+    keys = encode(forward, strafe, jump, jet, turn, turn_rate)
+    return np.column_stack([keys, np.stack([fire, bins], axis=1).astype(np.int64)])

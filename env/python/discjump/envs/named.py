@@ -46,12 +46,11 @@ class DiscJumpEnv(TaskEnv):
     """Reach a marker in the air above, higher than jump and jets alone lead: with a disc under your feet.
 
     An episode starts on the ground or somewhat above it, with a few discs. It terminates when the path of the
-    feet passes within 8 m of the marker, or on death by an explosion or a landing, and is truncated after 16
-    s. Options: `discjump.envs.options.DiscJumpOptions`.
+    feet passes within 8 m of the marker, or on death by an explosion or a landing, and is truncated after
+    16 s. Options: `discjump.envs.options.DiscJumpOptions`.
 
     >>> import gymnasium, discjump, numpy as np
-    >>> env = gymnasium.make("discjump/DiscJump-v0", terrain_seeds=[0], marker_height=(60, 60),
-    start_height=0)
+    >>> env = gymnasium.make("discjump/DiscJump-v0", terrain_seeds=[0], start_height=0)
     >>> observation, info = env.reset(seed=1)
     >>> env.action_space
     MultiDiscrete([3 3 2 2 7 2 5])

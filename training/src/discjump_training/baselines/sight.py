@@ -17,9 +17,9 @@ class Sight:
     """Physical readings, each of shape (n,) unless said otherwise.
 
     Attributes:
-        bearing: angle to the beacon.
-        distance: horizontal metres to the beacon.
-        closing: speed towards the beacon, m/s.
+        bearing: angle to the beacon, or to the goal in the air.
+        distance: horizontal metres there.
+        closing: speed towards it, m/s.
         drift: speed across the line to the beacon, m/s, positive to the left.
         climb: upward speed, m/s.
         height: metres above ground.
@@ -47,12 +47,13 @@ class Sight:
         def number(name: str) -> Floats:
             return layout.read(observations, name)[:, 0]
 
-        forward, right = layout.read(observations, "beacon_direction").T
+        goal = "beacon" if "beacon_direction" in layout.slices else "goal"
+        forward, right = layout.read(observations, f"{goal}_direction").T
         fan = layout.read(observations, "fan") if "fan" in layout.slices else np.zeros((len(observations), 0))
         height = number("height")
         return cls(
             bearing=np.arctan2(-right, forward),
-            distance=number("beacon_distance"),
+            distance=number(f"{goal}_distance"),
             closing=number("closing_speed"),
             drift=-number("lateral_speed"),
             climb=layout.read(observations, "velocity")[:, 2],
