@@ -13,7 +13,7 @@ from discjump.envs.options import SkiOptions
 from discjump.envs.tasks import TASKS
 from discjump.terrains import SURFACES
 from discjump_training import baselines, model
-from discjump_training.courses import COURSES, Course
+from discjump_training.courses import Course, course_of
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
 from discjump_training.recipe import Watch
@@ -75,8 +75,7 @@ def on_stage(
     return stage, ppo
 
 
-def level(name: str, threads: int | None) -> float:
-    """Mean time of a baseline of the ski task on the episodes that learning curves are measured on, s."""
-    watch = Watch()
-    stage = Stage(COURSES[watch.evaluate_course], watch.evaluate_episodes, baselines.OPTIONS, threads)
+def level(name: str, threads: int | None, task: str = "ski") -> float:
+    """Mean time of a baseline on the episodes that a task's learning curves are measured on, s."""
+    stage = Stage(course_of(task, "validation"), Watch().evaluate_episodes, baselines.options(task), threads)
     return float(stage.play(baselines.make(name, stage)).seconds.mean())

@@ -223,8 +223,9 @@ def write(folder: Path, made: "Evaluation", threads: int | None, *, page: bool) 
     write_atomically(folder / "evaluation.md", tables.markdown(made).encode())
     runs = {name: run for one in made.judged for name, run in one.runs.items()}
     curves = {name: run / CURVE for name, run in runs.items() if (run / CURVE).is_file()}
-    scripts = [name for name in baselines.names(made.conditions.task.name) if name in baselines.PARAMETERS]
-    levels = {name: models.level(name, threads) for name in scripts} if curves else {}
+    task = made.conditions.task.name
+    scripts = [name for name in baselines.names(task) if name != "random"]
+    levels = {name: models.level(name, threads, task) for name in scripts} if curves else {}
     drawn = [one for one in made.judged if one.name != "random"] or made.judged
     if any(one.episodes.paths for one in drawn):
         picture.draw(folder / "evaluation.png", made.conditions, drawn, curves, levels)
