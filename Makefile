@@ -80,7 +80,7 @@ dev: .stamps/env-fast .stamps/training ## Inner loop: the extension in the quick
 lock: $(UV) ## Resolve requirements.lock anew from both pyproject.toml
 	$(UV) pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest \
 	  --no-emit-index-url --no-annotate --no-header --no-emit-package discjump \
-	  --extra dev --output-file requirements.lock pyproject.toml training/pyproject.toml
+	  --extra dev --extra onnx --output-file requirements.lock pyproject.toml training/pyproject.toml
 
 # ---------------------------------------------------------------------------------------------- the main job
 

@@ -1,6 +1,7 @@
 """`discjump evaluate --replays` keeps every judged episode, and judges as it does without."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from click.testing import CliRunner
 from discjump import replays
 from discjump.replays import EpisodeReplay
 from discjump_training import baselines
-from discjump_training.cli import evaluate
+from discjump_training.commands.evaluate import evaluate
 from discjump_training.courses import HELD_OUT
 from discjump_training.episodes import Stage
 
@@ -23,7 +24,7 @@ def invoke(*arguments):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     made = tmp_path_factory.mktemp("evaluation")
-    judged = ("skier", "random", "--no-baselines", "--episodes", EPISODES)
+    judged = ("skier", "random", "--no-baselines", "--no-page", "--episodes", EPISODES)
     result = invoke(*judged, "--out", made / "with", "--replays", made / "replays")
     assert result.exit_code == 0, result.output
     assert f"Replays: {made / 'replays'} (12 episodes)" in result.output
@@ -32,8 +33,15 @@ def folder(tmp_path_factory):
 
 
 def test_evaluation_stays_the_same(folder):
-    for name in ("evaluation.json", "evaluation.md", "evaluation.png"):
+    """But for where the replays of failures are."""
+    for name in ("evaluation.md", "evaluation.png"):
         assert (folder / "with" / name).read_bytes() == (folder / "without" / name).read_bytes()
+    figures = [json.loads((folder / name / "evaluation.json").read_text()) for name in ("with", "without")]
+    for one in figures:
+        for policy in one["policies"]:
+            for failure in policy["failures"]:
+                assert Path(failure.pop("replay")).is_file()
+    assert figures[0] == figures[1]
 
 
 def test_every_episode_has_its_file(folder):

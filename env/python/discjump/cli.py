@@ -27,6 +27,8 @@ TRAINING = {
     "evaluate": "Judge an agent or a baseline on terrain it never saw.",
     "plan": "Plan episodes by simulation: an upper bound.",
     "export": "Pack a trained policy: ONNX, zip, recipe and card.",
+    "compare": "Compare two policies on the same episodes.",
+    "leaderboard": "Rank replays, each played again before its score is shown.",
     "tradeoff": "Measure speed against accuracy, and draw it.",
 }
 """Subcommands of the package discjump-training, named here so that one learns where they are."""

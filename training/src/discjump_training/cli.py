@@ -1,18 +1,17 @@
-"""The commands `discjump train` and `discjump evaluate`."""
+"""The command `discjump train`, and those that judge."""
 
-import json
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
 import click
-from rich.console import Console
 
 from discjump.envs.tasks import TASKS
-from discjump_training.courses import COURSES, HELD_OUT, MAX_RUN_SEED
-from discjump_training.errors import RecipeError, TrainingError
+from discjump_training.commands.compare import compare
+from discjump_training.commands.evaluate import evaluate, run_evaluation
+from discjump_training.commands.leaderboard import leaderboard
+from discjump_training.courses import COURSES, MAX_RUN_SEED
+from discjump_training.errors import RecipeError, clean_errors
 from discjump_training.recipe import Recipe
 
 #: Exit code after Ctrl-C, as shells have it.
@@ -26,8 +25,8 @@ SMOKE = (
 )
 #: Episodes that `--smoke --evaluate` judges on.
 SMOKE_EPISODES = 32
-#: Learning curve of a run.
-CURVE = "curve.csv"
+
+__all__ = ["clean_errors", "compare", "evaluate", "leaderboard", "train"]
 
 
 @click.command()
@@ -94,7 +93,7 @@ def train(
         _train(recipe, seed or 0, folder, resume=resume is not None, quiet=quiet)
         if judge:
             held_out = COURSES[f"{task}-held-out-v1"]
-            _evaluate((str(folder),), held_out.name, SMOKE_EPISODES if smoke else held_out.episodes)
+            run_evaluation((str(folder),), held_out, SMOKE_EPISODES if smoke else held_out.episodes)
 
 
 def _train(recipe: Recipe, seed: int, folder: Path, *, resume: bool, quiet: bool) -> None:
@@ -138,107 +137,3 @@ def _refuse_with_resume(given: dict[str, bool]) -> None:
             raise click.UsageError(
                 f"--resume goes on with the run in its folder: {name} does not fit with it"
             )
-
-
-@click.command()
-@click.argument("policies", nargs=-1, required=True, metavar="POLICY...")
-@click.option("--course", default=HELD_OUT.name, show_default=True, type=click.Choice(list(COURSES)))
-@click.option("--episodes", type=click.IntRange(min=1), help="The course's first so many.  [default: all]")
-@click.option("--out", type=click.Path(path_type=Path), help="Folder for the results.")
-@click.option(
-    "--sampled", is_flag=True, help="Models draw their actions instead of taking the likeliest (greedy)."
-)
-@click.option("--baselines/--no-baselines", default=True, show_default=True, help="Judge all baselines too.")
-@click.option("--threads", type=click.IntRange(min=1), help="Of the simulator.  [default: all cores]")
-@click.option(
-    "--replays",
-    type=click.Path(file_okay=False, path_type=Path),
-    metavar="FOLDER",
-    help="Save a replay of every episode there: COURSE-EPISODE-POLICY.replay, for `discjump replay`.",
-)
-def evaluate(
-    policies: tuple[str, ...],
-    course: str,
-    episodes: int | None,
-    out: Path | None,
-    sampled: bool,
-    baselines: bool,
-    threads: int | None,
-    replays: Path | None,
-) -> None:
-    """Judge policies on terrain that none was trained on.
-
-    POLICY is a model file, the folder of a run (its best model), or a baseline: random, skier, tacker. All
-    play the same episodes. Results go to evaluation.json, evaluation.md and evaluation.png in the folder of
-    the first run named, else in runs/evaluation.
-
-    Opening a model file runs code it contains: open only files you trust.
-    """
-    with clean_errors():
-        _evaluate(
-            policies,
-            course,
-            episodes,
-            out,
-            sampled=sampled,
-            with_baselines=baselines,
-            threads=threads,
-            replays=replays,
-        )
-
-
-def _evaluate(
-    policies: tuple[str, ...],
-    course_name: str,
-    episodes: int | None,
-    out: Path | None = None,
-    *,
-    sampled: bool = False,
-    with_baselines: bool = True,
-    threads: int | None = None,
-    replays: Path | None = None,
-) -> None:
-    from discjump_training import baselines, picture, report
-    from discjump_training import evaluate as judging
-    from discjump_training.files import write_atomically
-
-    course = COURSES[course_name]
-    count = len(course.seeds(episodes))
-    judged = []
-    for name in judging.entrants(policies, with_baselines):
-        click.echo(f"{name} plays {count} episodes ...", err=True)
-        judged.append(
-            judging.judge(name, course, count, sampled=sampled, threads=threads, record=3, replays=replays)
-        )
-    compared = judging.compare(judged)
-
-    runs = [Path(name) for name in policies if Path(name).is_dir()]
-    folder = out or (runs[0] / "evaluation" if runs else Path("runs") / "evaluation")
-    folder.mkdir(parents=True, exist_ok=True)
-    result = judging.as_json(course, count, judged, compared)
-    write_atomically(folder / "evaluation.json", (json.dumps(result, indent=1) + "\n").encode())
-    write_atomically(folder / "evaluation.md", report.markdown(course, count, judged, compared).encode())
-    curves = {name: curve for name in policies if (curve := _run_folder(name) / CURVE).is_file()}
-    drawn = [one for one in judged if one.name != "random"] or judged
-    levels = {name: judging.level(name, threads) for name in baselines.PARAMETERS} if curves else {}
-    picture.draw(folder / "evaluation.png", course, drawn, curves, levels)
-
-    report.show(Console(width=None if sys.stdout.isatty() else 160), course, count, judged, compared)
-    for kind, suffix in (("Figures", "json"), ("Table", "md"), ("Picture", "png")):
-        click.echo(f"{kind + ':':9}{folder / f'evaluation.{suffix}'}")
-    if replays is not None:
-        click.echo(f"Replays: {replays} ({count * len(judged)} episodes)")
-
-
-def _run_folder(name: str) -> Path:
-    path = Path(name)
-    return path if path.is_dir() else path.parent
-
-
-@contextmanager
-def clean_errors() -> Iterator[None]:
-    """Errors the user can mend are printed without a traceback; the exit code is 1."""
-    try:
-        yield
-    except TrainingError as error:
-        raise click.ClickException(str(error)) from error

@@ -7,6 +7,7 @@ whole or not at all. Opening one runs code that it contains (pickles): open only
 import io
 import json
 import zipfile
+from collections.abc import Set
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 import torch
 from gymnasium.vector import VectorEnv
 from stable_baselines3 import PPO
+from stable_baselines3.common.base_class import BaseAlgorithm
 
 from discjump_training.errors import ModelError
 from discjump_training.files import write_atomically
@@ -53,8 +55,8 @@ def read_entry(path: Path, name: str) -> bytes:
 
 
 def about(path: Path) -> dict[str, Any]:
-    """What `save` was told about the model; empty for a plain stable-baselines3 file."""
-    check_file(path)
+    """What `save` was told about the model; empty for a plain stable-baselines3 file of any algorithm."""
+    check_file(path, {"data"})
     with zipfile.ZipFile(path) as archive:
         if ABOUT not in archive.namelist():
             return {}
@@ -62,8 +64,8 @@ def about(path: Path) -> dict[str, Any]:
         return loaded
 
 
-def check_file(path: Path) -> None:
-    """Refuse a file that is missing or is no whole zip.
+def check_file(path: Path, entries: Set[str] = frozenset(ENTRIES)) -> None:
+    """Refuse a file that is missing or is no whole zip, or lacks one of `entries`.
 
     Raises:
         ModelError: saying which.
@@ -72,7 +74,7 @@ def check_file(path: Path) -> None:
         raise ModelError(f"no model file at {path}")
     try:
         with zipfile.ZipFile(path) as archive:
-            missing = ENTRIES - set(archive.namelist())
+            missing = entries - set(archive.namelist())
             damaged = archive.testzip()
     except (zipfile.BadZipFile, OSError, EOFError) as error:
         raise ModelError(f"{path} is not a readable model file: {error}") from None
@@ -153,7 +155,7 @@ def _typed(actions: Any) -> Actions:
     return made if made.dtype == np.float32 else made.astype(np.int64)
 
 
-def check_spaces(ppo: PPO, path: Path | str, env: VectorEnv[Any, Any, Any]) -> None:
+def check_spaces(ppo: BaseAlgorithm, path: Path | str, env: VectorEnv[Any, Any, Any]) -> None:
     """Refuse an environment whose spaces are not the model's.
 
     Raises:

@@ -12,31 +12,33 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from discjump import Terrain
-from discjump_training.courses import Course
-from discjump_training.evaluate import Judged
+from discjump_training.judge.conditions import Conditions
+from discjump_training.judge.judged import Judged
 from discjump_training.policy import Floats
 
 #: Top of the colour scale of speed, m/s.
 TOP_SPEED = 50.0
 #: Metres shown around the paths.
 MARGIN = 80.0
-#: Arrival radius of the task, metres.
-ARRIVAL = 8.0
 
-_SPEEDS = Normalize(0.0, TOP_SPEED)
-_COLOURS = "plasma"
+SPEEDS = Normalize(0.0, TOP_SPEED)
+COLOURS = "plasma"
 #: Rims of the paths, by policy: the inside shows the speed.
 _RIMS = ("black", "deepskyblue", "limegreen", "white")
 
 
 def draw(
-    path: Path, course: Course, judged: list[Judged], curves: dict[str, Path], levels: dict[str, float]
+    path: Path,
+    conditions: Conditions,
+    judged: list[Judged],
+    curves: dict[str, Path],
+    levels: dict[str, float],
 ) -> None:
     """Draw the picture.
 
     Args:
         path: PNG to write.
-        course: whose terrains were played.
+        conditions: of the evaluation.
         judged: policies with recorded paths, the models first.
         curves: learning curves (CSV) by name of the model; may be empty.
         levels: mean time of each script on the course of the learning curves, s.
@@ -47,25 +49,25 @@ def draw(
     grid = figure.add_gridspec(2 if curves else 1, columns, height_ratios=[5, 3] if curves else [1])
     maps = [figure.add_subplot(grid[0, column]) for column in range(len(episodes))]
     for axes, episode in zip(maps, episodes, strict=True):
-        command_map(axes, course, judged, episode)
+        command_map(axes, conditions, judged, episode)
     if maps:
-        colours = matplotlib.cm.ScalarMappable(_SPEEDS, _COLOURS)
+        colours = matplotlib.cm.ScalarMappable(SPEEDS, COLOURS)
         figure.colorbar(colours, ax=maps, label="speed, m/s", location="right", fraction=0.02, pad=0.01)
     if curves:
         learning_curve(figure.add_subplot(grid[1, :]), curves, levels)
     figure.savefig(path, dpi=110)
 
 
-def command_map(axes: Axes, course: Course, judged: list[Judged], episode: int) -> None:
-    """One episode from above: hillshade, contours, start, beacon and everybody's path coloured by speed."""
+def command_map(axes: Axes, conditions: Conditions, judged: list[Judged], episode: int) -> None:
+    """One episode from above: hillshade, contours, start, goal and everybody's path coloured by speed."""
     first = judged[0].episodes
     goal = first.goals[episode]
     seen = np.concatenate([one.episodes.paths[episode][:, :2] for one in judged] + [goal[None, :2]])
     low, high = seen.min(axis=0), seen.max(axis=0)
     side = (high - low).max() + 2.0 * MARGIN
     corner = (low + high) / 2.0 - side / 2.0
-    seed = course.terrain_seeds[int(first.terrain[episode])]
-    ground(axes, Terrain.raindance(seed), corner, side)
+    index = int(first.terrain[episode])
+    ground(axes, conditions.terrains()[index], corner, side)
 
     # The first policy is drawn last, on top of the others.
     for one, rim in reversed(list(zip(judged, _RIMS, strict=False))):
@@ -73,21 +75,23 @@ def command_map(axes: Axes, course: Course, judged: list[Judged], episode: int) 
         points = path[:, :2]
         axes.plot(*points.T, color=rim, linewidth=4.5, solid_capstyle="round", label=one.name)
         segments = np.stack([points[:-1], points[1:]], axis=1)
-        lines = LineCollection(list(segments), cmap=_COLOURS, norm=_SPEEDS, linewidth=2.4, zorder=2.0)
+        lines = LineCollection(list(segments), cmap=COLOURS, norm=SPEEDS, linewidth=2.4, zorder=2.0)
         lines.set_array(path[1:, 3])
         axes.add_collection(lines)
     start = first.paths[episode][0, :2]
     axes.plot(*start, "o", color="white", markeredgecolor="black", label="start")
-    axes.add_patch(
-        matplotlib.patches.Circle(tuple(goal[:2]), ARRIVAL, fill=False, color="red", linewidth=1.5)
-    )
-    axes.plot(*goal[:2], "*", color="red", markeredgecolor="black", markersize=12, label="beacon")
+    radius = float(conditions.changes.get("arrival_radius", conditions.task.options.arrival_radius))
+    axes.add_patch(matplotlib.patches.Circle(tuple(goal[:2]), radius, fill=False, color="red", linewidth=1.5))
+    axes.plot(*goal[:2], "*", color="red", markeredgecolor="black", markersize=12, label=conditions.task.goal)
     times = "\n".join(
         f"{one.name}: "
         + (f"{one.episodes.seconds[episode]:.1f} s" if one.episodes.success[episode] else "never")
         for one in judged
     )
-    axes.set_title(f"terrain {seed}, {first.start_distance[episode]:.0f} m\n{times}", fontsize=9)
+    axes.set_title(
+        f"terrain {conditions.terrain_name(index)}, {first.start_distance[episode]:.0f} m\n{times}",
+        fontsize=9,
+    )
     axes.set_xlabel("east, m")
     axes.tick_params(labelsize=7)
     if episode == 0:

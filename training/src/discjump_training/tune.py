@@ -13,25 +13,35 @@ from scipy.optimize import Bounds, differential_evolution
 from scipy.stats import qmc
 from tqdm import tqdm
 
+from discjump.envs.tasks import TASKS
 from discjump_training import baselines
-from discjump_training.baselines.script import SkierParameters, bounds
-from discjump_training.courses import TRAIN, VALIDATION
+from discjump_training.baselines import Parameters
+from discjump_training.baselines.script import bounds
+from discjump_training.courses import TRAIN, course_of
 from discjump_training.episodes import Stage
 
+#: What each is tuned on.
+TASK = {"skier": "ski", "tacker": "ski", "jumper": "disc-jump", "runner": "route"}
 
-def seconds(stage: Stage, name: str, values: Any) -> float:
-    """Mean time to the beacon of a script with these parameter values; failures count as 60 s."""
+
+def cost(stage: Stage, name: str, values: Any) -> float:
+    """What a script with these parameter values is to have little of: mean seconds, a failure counting as the
+    time limit; where the score is the share of episodes that succeed, the share that fails.
+    """
     parameters = baselines.PARAMETERS[name](*map(float, values))
-    return float(stage.play(baselines.make(name, stage, parameters)).seconds.mean())
+    played = stage.play(baselines.make(name, stage, parameters))
+    if TASKS[stage.course.task].score == "share":
+        return 1.0 - float(played.success.mean())
+    return float(played.seconds.mean())
 
 
 def search(
     name: str, *, generations: int, population: int, episodes: int, seed: int, threads: int | None
-) -> SkierParameters:
+) -> Parameters:
     """The best parameters found, rounded to the digits that are printed.
 
     Args:
-        name: `skier` or `tacker`.
+        name: of a script.
         generations: of the evolution after the first.
         population: candidates per generation; at the start as many points of a Sobol sequence.
         episodes: of the training course that each candidate plays.
@@ -40,16 +50,16 @@ def search(
     """
     kind = baselines.PARAMETERS[name]
     limits = bounds(kind)
-    stage = Stage(TRAIN, episodes, baselines.OPTIONS, threads)
+    stage = Stage(course_of(TASK[name], "train"), episodes, baselines.OPTIONS, threads)
     best = float("inf")
     with tqdm(total=population * (generations + 1), unit=" candidates", file=sys.stderr) as bar:
 
         def judged(values: Any) -> float:
             nonlocal best
-            result = seconds(stage, name, values)
+            result = cost(stage, name, values)
             if result < best:
                 best = result
-                bar.set_postfix(best=f"{best:.2f} s")
+                bar.set_postfix(best=f"{best:.3f}")
             bar.update()
             return result
 
@@ -88,7 +98,8 @@ def main(name: str, generations: int, population: int, episodes: int, seed: int,
         name, generations=generations, population=population, episodes=episodes, seed=seed, threads=threads
     )
     click.echo(f"# python -m discjump_training.tune {' '.join(sys.argv[1:])}")
-    for course in (TRAIN, VALIDATION):
+    for kind in ("train", "validation"):
+        course = course_of(TASK[name], kind)
         stage = Stage(course, 512, baselines.OPTIONS, threads)
         played = stage.play(baselines.make(name, stage, parameters))
         success, mean = played.success.mean(), played.seconds.mean()

@@ -7,20 +7,15 @@ only where its drift would carry it past. Where it comes down again without succ
 does the same once more.
 """
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
+from discjump_training.baselines.script import tuned
 from discjump_training.baselines.steering import press, wrap
 from discjump_training.policy import Actions, Floats, Layout, Mask, Observations, encode_armed
 
 DOWN, AHEAD = -1.5358897, 0.0
-
-
-def tuned(low: float, high: float) -> Any:
-    """A parameter that is searched for between two bounds."""
-    return field(metadata={"bounds": (low, high)})
 
 
 @dataclass(frozen=True)
@@ -88,8 +83,8 @@ class Jumper:
         self._since = np.where(jump, 0.0, np.where(grounded, np.inf, self._since + 1.0))
         flying = np.isfinite(self._since)
         fire = self._since == np.rint(p.wait)
-        # Where its drift will not carry it by itself. Pressing a direction takes four fifths of the lift
-        away. way = near - np.where(flying, p.lead, 0.0)[:, None] * velocity
+        # Where its drift will not carry it by itself: pressing a direction takes much of the lift away.
+        way = near - np.where(flying, p.lead, 0.0)[:, None] * velocity
         press_on = np.where(
             flying,
             (np.hypot(way[:, 0], way[:, 1]) > p.near) & (self._since > p.climb),

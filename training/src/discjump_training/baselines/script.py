@@ -126,6 +126,6 @@ class Script:
         return np.where(tacking, self._side * p.angle, lean)
 
 
-def bounds(kind: type[SkierParameters]) -> list[tuple[float, float]]:
+def bounds(kind: type[Any]) -> list[tuple[float, float]]:
     """Search bounds of all parameters, in the order of the fields."""
     return [f.metadata["bounds"] for f in fields(kind)]

@@ -21,8 +21,8 @@ from discjump_training import intervals
 from discjump_training.cli import clean_errors
 from discjump_training.courses import COURSES
 from discjump_training.errors import TrainingError
-from discjump_training.evaluate import judge
 from discjump_training.files import write_atomically
+from discjump_training.judge import Conditions, entrants, judge
 from discjump_training.planner import report
 from discjump_training.planner.play import plan
 from discjump_training.planner.settings import Settings
@@ -83,9 +83,9 @@ def main(source: Path, out: Path, work: Path, threads: int | None) -> None:
         sweep = Sweep.load(source)
         course = COURSES[sweep.course]
         played: dict[str, Floats] = {}
-        for name in sweep.references:
-            judged = judge(name, course, sweep.episodes, sampled=False, threads=threads, record=0)
-            played[name] = judged.episodes.seconds
+        entered = entrants(tuple(sweep.references), course, with_baselines=False)
+        for judged in judge(entered, Conditions(course, sweep.episodes, threads=threads)):
+            played[judged.name] = judged.episodes.seconds
         rows: list[dict[str, Any]] = []
         out.mkdir(parents=True, exist_ok=True)
         for name, arguments in sweep.plans.items():
