@@ -10,8 +10,8 @@ use discjump_core::batch::{
     Autoreset, Environments, EnvironmentsSetup, ResetRequest, Rewards, StatusOutput, StepOutput,
 };
 use discjump_core::random::{Purpose, bits};
-use discjump_core::task::{ActionKind, Actions, Grounds, Level, Pitch};
 use discjump_core::solids::{Solid, Solids};
+use discjump_core::task::{ActionKind, Actions, Grounds, Level, Pitch};
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::{Edge, Heightfield, Maps, SurfaceKind};
 use glam::DVec3;

@@ -67,6 +67,8 @@ const DISTANCE: f64 = 400.0;
 /// Half-way points of the bending features h / (h + 3 m) and 30 m / (30 m + d).
 const LOW: f64 = 3.0;
 const NEAR: f64 = 30.0;
+/// Height of a low marker: the highest are within the clip.
+const ALOFT: f64 = 40.0;
 /// What is close: the reach of an explosion, and somewhat more, m.
 const CLOSE: f64 = 10.0;
 
@@ -117,7 +119,7 @@ impl Observation {
         add(direction, 2, "", 1.0);
         add(distance, 1, "m", DISTANCE);
         add(nearness, 1, "", 1.0);
-        add(height, 1, "m", HEIGHT);
+        add(height, 1, "m", if K::ALOFT { ALOFT } else { HEIGHT });
         add("closing_speed", 1, "m/s", SPEED);
         add("lateral_speed", 1, "m/s", SPEED);
         add("ground_normal", 2, "", 1.0);
@@ -147,7 +149,7 @@ impl Observation {
         }
         if K::ALOFT {
             add("goal_near", 3, "m", CLOSE);
-            add("apex_gap", 1, "m", CLEARANCE);
+            add("apex_gap", 1, "m", ALOFT);
         }
         if S::Arms::<f32>::MODELED {
             add("reload", 1, "", 1.0);
@@ -214,7 +216,7 @@ impl Observation {
         row.push(right, one);
         row.push(distance, R::lit(1.0 / DISTANCE));
         row.push(R::lit(NEAR) / (R::lit(NEAR) + distance), one);
-        row.push(run.goal.z - p.position.z, R::lit(1.0 / HEIGHT));
+        row.push(run.goal.z - p.position.z, R::lit(1.0 / if K::ALOFT { ALOFT } else { HEIGHT }));
         row.push(v.x * ux + v.y * uy, by_speed);
         row.push(v.x * uy - v.y * ux, by_speed);
         let (forward, right) = turned(normal.x, normal.y, sin, cos);
@@ -265,7 +267,7 @@ impl Observation {
             row.push(forward, close);
             row.push(right, close);
             row.push(run.goal.z - p.position.z, close);
-            row.push(run.goal.z - apex(p), R::lit(1.0 / CLEARANCE));
+            row.push(run.goal.z - apex(p), R::lit(1.0 / ALOFT));
         }
         if let Some(arms) = seen.arms {
             write_arms(&mut row, arms, seen, (sin, cos));

@@ -12,6 +12,7 @@ from discjump import __version__
 from discjump.accuracy.command import accuracy
 from discjump.bench.command import bench
 from discjump.bisect.command import bisect
+from discjump.cards.command import card
 from discjump.falloff_command import falloff
 from discjump.features.command import features
 from discjump.replays.command import replay
@@ -79,6 +80,7 @@ def main() -> None:
 main.add_command(accuracy)
 main.add_command(bench)
 main.add_command(bisect)
+main.add_command(card)
 main.add_command(falloff)
 main.add_command(features)
 main.add_command(replay)
