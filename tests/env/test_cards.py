@@ -31,7 +31,7 @@ def test_the_table_of_the_observation_is_the_layout(name):
     lines = card(TASKS[name]).split("## Observation")[1].split("## Reward")[0].splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
     told = [(field, int(count), unit, float(scale)) for field, count, unit, scale, _ in cells[2:]]
-    env = gymnasium.make(TASKS[name].id, terrain_seeds=[0]).unwrapped
+    env: Any = gymnasium.make(TASKS[name].id, terrain_seeds=[0]).unwrapped
     layout = [(f.name, f.slice.stop - f.slice.start, f.unit, f.scale) for f in env.observation_layout]
     assert told == [(*rest, pytest.approx(scale, rel=1e-5)) for *rest, scale in layout]
     assert sum(count for _, count, _, _ in told) == env.observation_space.shape[0]

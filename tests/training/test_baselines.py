@@ -4,19 +4,24 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
+from discjump.envs.tasks import TASKS
 from discjump_training import baselines, tune
 from discjump_training.baselines.script import Script, SkierParameters, TackerParameters, bounds
 from discjump_training.baselines.sight import Sight
 from discjump_training.baselines.steering import ANGLES, press, wrap
-from discjump_training.courses import TRAIN
+from discjump_training.courses import course_of
 from discjump_training.episodes import Stage
 from discjump_training.errors import TrainingError
-from discjump_training.policy import BINS, Layout, encode
+from discjump_training.policy import ARMED_BINS, BINS, Layout, encode
 
 
 @pytest.fixture(scope="module")
-def stage():
-    return Stage(TRAIN, 8, baselines.OPTIONS, threads=1)
+def stages():
+    return {task: Stage(course_of(task, "train"), 8, baselines.options(task), threads=1) for task in TASKS}
+
+
+#: Each with its task.
+PLAYERS = [(task, name) for task in TASKS for name in baselines.names(task)]
 
 
 def layout_and_observation(**values: float | list[float]):
@@ -44,8 +49,9 @@ def reading(**changes: float | list[float]):
     return layout_and_observation(**(values | changes))
 
 
-@pytest.mark.parametrize("name", baselines.NAMES)
-def test_actions_lie_in_the_action_space(name, stage):
+@pytest.mark.parametrize(("task", "name"), PLAYERS)
+def test_actions_lie_in_the_action_space(task, name, stages):
+    stage = stages[task]
     policy = baselines.make(name, stage)
     observations, _ = stage.env.reset(seed=0)
     policy.reset(np.ones(8, np.bool_))
@@ -55,8 +61,11 @@ def test_actions_lie_in_the_action_space(name, stage):
         observations, *_ = stage.env.step(actions)
 
 
-def test_bins_are_the_environments(stage):
-    assert tuple(stage.env.unwrapped.single_action_space.nvec) == BINS
+@pytest.mark.parametrize("task", TASKS)
+def test_bins_are_the_environments(task, stages):
+    stage = stages[task]
+    bins = BINS if task == "ski" else ARMED_BINS
+    assert tuple(stage.env.unwrapped.single_action_space.nvec) == stage.bins == bins
 
 
 @pytest.mark.parametrize("name", baselines.PARAMETERS)
@@ -73,8 +82,9 @@ def test_tuning_measures_what_it_prints():
     assert SkierParameters(**tomllib.loads(baselines.to_toml(found))) == found
 
 
-@pytest.mark.parametrize("name", baselines.NAMES)
-def test_episodes_are_the_same_every_time(name, stage):
+@pytest.mark.parametrize(("task", "name"), PLAYERS)
+def test_episodes_are_the_same_every_time(task, name, stages):
+    stage = stages[task]
     first, second = (stage.play(baselines.make(name, stage)) for _ in range(2))
     assert first.seconds.tobytes() == second.seconds.tobytes()
     assert first.episode_return.tobytes() == second.episode_return.tobytes()

@@ -102,10 +102,10 @@ fn rewards_add_up_to_what_was_left_and_what_is_left() {
         for tick in 0..250 {
             let actions: Vec<i8> = (0..COUNT).flat_map(|env| keys(env, tick)).collect();
             envs.step(&actions);
-            for env in 0..COUNT {
+            for (env, first) in first.iter().enumerate() {
                 let Some((outcome, _)) = envs.ended(env) else { continue };
                 let bonus = if outcome.success { 5.0 } else { 0.0 } + if outcome.death { -3.0 } else { 0.0 };
-                let expected = 0.02 * (first[env] - left(&envs, env)) - 0.156_25 * outcome.time + bonus;
+                let expected = 0.02 * (first - left(&envs, env)) - 0.156_25 * outcome.time + bonus;
                 let tolerance = if double { 1e-9 } else { 1e-3 };
                 assert!((outcome.total_reward - expected).abs() < tolerance, "{outcome:?}: {expected}");
                 seen += 1;

@@ -170,7 +170,12 @@ def test_an_evaluation_that_is_broken_off_goes_on(tmp_path, invoke, monkeypatch)
         return play(self, *arguments, **keywords)
 
     monkeypatch.setattr(Stage, "play", interrupted)
-    result = invoke("evaluate", *asked, "--out", tmp_path / "out")
+    # A shell that starts the tests in the background has SIGINT ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        result = invoke("evaluate", *asked, "--out", tmp_path / "out")
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert result.exit_code == 130, result.output
     assert "Broken off: 16 episodes were played" in result.output
     assert "PARTIAL" in result.output

@@ -46,7 +46,7 @@ def in_task(trained: Mapping[str, Any], task: str = "ski") -> dict[str, Any]:
     physics is the task's, and the time between its decisions stays as near to its own as whole ticks allow.
 
     >>> in_task({"fidelity": "fast", "tick_ms": 64, "surface": "bilinear", "frame_skip": 2, "landing": False})
-    {'fidelity': 'authentic', 'tick_ms': 32, 'surface': 'triangles', 'frame_skip': 4, 'landing': False}
+    {'landing': False, 'fidelity': 'authentic', 'tick_ms': 32, 'surface': 'triangles', 'frame_skip': 4}
     """
     of = TASKS[task].options
     own = physics(task)

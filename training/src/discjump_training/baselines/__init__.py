@@ -105,6 +105,11 @@ def names(task: str) -> tuple[str, ...]:
     return OF_TASK.get(task, ("random",))
 
 
+def scripts(task: str) -> tuple[str, ...]:
+    """Names of the baselines of a task that follow a script."""
+    return tuple(name for name in names(task) if name in PARAMETERS)
+
+
 def options(task: str) -> dict[str, Any]:
     """Options of the task's environment that its baselines need to see what they look at."""
     return dict(OPTIONS) if task in OF_TASK else {}

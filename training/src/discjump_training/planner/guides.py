@@ -140,12 +140,12 @@ def script(task: Task, name: str) -> dict[str, Any]:
     Raises:
         TrainingError: if there is none of that name that can guide.
     """
-    if task.name != "ski" or name not in baselines.PARAMETERS:
-        known = ", ".join(baselines.PARAMETERS)
+    if name not in baselines.scripts(task.name):
+        known = ", ".join(baselines.scripts(task.name)) or "it has none"
         raise TrainingError(
-            f"{name}: expected a model file, the folder of a run, or (for ski) a script: {known}"
+            f"{name}: expected a model file, the folder of a run, or a script of {task.name}: {known}"
         )
-    return dict(baselines.OPTIONS)
+    return baselines.options(task.name)
 
 
 def _multi_discrete() -> type:

@@ -13,7 +13,7 @@ from discjump_training.tradeoff.section import Done, Made, Panel, Speeds, points
 from discjump_training.tradeoff.skiers import FIGURES, compared, play
 from discjump_training.tradeoff.store import Store, build, code
 
-SKIERS = tuple(baselines.PARAMETERS)
+SKIERS = baselines.scripts("ski")
 FLOOR = 0.01
 """Of the picture's error axis, s."""
 
