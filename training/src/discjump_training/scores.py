@@ -3,8 +3,8 @@
     python -m discjump_training.scores training/results
 
 reads TASK/evaluation.json (of `discjump evaluate`) and, where they are there, TASK/plan.json (of `discjump
-plan`) and bounds/TASK.json (of `python -m discjump_training.bounds`), and writes scores.json, which the cards
-of the tasks show, and scores.md.
+plan`) and TASK/runs/SEED/run.json (of `discjump train`), and writes scores.json, which the cards of the tasks
+show, and scores.md.
 """
 
 import json
@@ -24,6 +24,10 @@ from discjump_training.judge.tables import cell
 
 #: Commands that the figures come from; `N` is each training seed.
 COMMAND = "discjump evaluate ppo=runs/{name}-N,... --task {name} --planner training/results/{name}/plan.json"
+
+
+#: What the time of a training goes into.
+PARTS = ("environment", "policy", "update")
 
 
 def read(path: Path) -> dict[str, Any] | None:
@@ -80,14 +84,50 @@ def rows(task: Task, folder: Path) -> list[list[str]]:
     return found
 
 
+def training(folder: Path) -> list[list[str]]:
+    """Task, seeds, decisions, minutes, decisions/s and what the time went into: a row for each task.
+
+    Raises:
+        TrainingError: a file is damaged.
+    """
+    found = []
+    for name in TASKS:
+        told = [read(path) for path in sorted((folder / name / "runs").glob("*/run.json"))]
+        runs = [one for one in told if one is not None]
+        if not runs:
+            continue
+        try:
+            minutes = [one["steps"] / one["steps_per_second"] / 60 for one in runs]
+            spent = {part: sum(one["seconds"][part] for one in runs) for part in PARTS}
+            found.append(
+                [
+                    name,
+                    ", ".join(str(one["seed"]) for one in runs),
+                    f"{np.mean([one['steps'] for one in runs]) / 1e6:.1f} M",
+                    f"{np.median(minutes):.1f} ({min(minutes):.1f} to {max(minutes):.1f})",
+                    f"{np.median([one['steps_per_second'] for one in runs]):,.0f}",
+                    ", ".join(f"{value / sum(spent.values()):.0%}" for value in spent.values()),
+                ]
+            )
+        except (KeyError, TypeError, ZeroDivisionError) as error:
+            raise TrainingError(
+                f"{folder / name}: no runs of this version: {type(error).__name__}: {error}"
+            ) from None
+    return found
+
+
+TRAINING = ["task", "seeds", "decisions", "minutes (range)", "decisions/s", ", ".join(PARTS)]
+"""Heading of `training`."""
+
+
 def heading(task: Task) -> list[str]:
     """Of the columns."""
     return ["policy", "episodes", "success, %", f"time to {task.goal}, s", "of the planner's, %"]
 
 
-def table(task: Task, cells: list[list[str]]) -> str:
+def table(titles: list[str], cells: list[list[str]]) -> str:
     """As Markdown."""
-    lines = [heading(task), ["---"] * len(heading(task)), *cells]
+    lines = [titles, ["---"] * len(titles), *cells]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
@@ -108,9 +148,11 @@ def main(folder: Path) -> None:
                     "heading": heading(task),
                     "rows": cells,
                 }
-                text.append(f"`{task.id}`, `{course}`:\n\n{table(task, cells)}")
+                text.append(f"`{task.id}`, `{course}`:\n\n{table(heading(task), cells)}")
         if not gathered:
             raise TrainingError(f"{folder}: expected results of `discjump evaluate` in TASK/evaluation.json")
+        if trained := training(folder):
+            text.append(f"Training:\n\n{table(TRAINING, trained)}")
         write_atomically(folder / "scores.json", (json.dumps(gathered, indent=1) + "\n").encode())
         write_atomically(folder / "scores.md", "\n".join(text).encode())
         click.echo("\n".join(text))
