@@ -11,6 +11,8 @@ from discjump_training.errors import TrainingError
 from discjump_training.recipe import Recipe
 from discjump_training.tradeoff.grid import DEFAULT, Config, Plan
 
+RECIPE = Path(__file__).parent / "recipe.toml"
+"""Of all trainings."""
 QUICK_CHANGES = (
     "rollout.num_envs=64",
     "ppo.batch_size=1024",
@@ -44,7 +46,7 @@ class Home:
         return self.config.name + ("" if self.skip is None else f", frame_skip {self.skip}")
 
     def recipe(self, plan: Plan, steps: int) -> Recipe:
-        """The ski recipe in this physics."""
+        """The recipe in this physics."""
         fields = {
             "fidelity": self.config.tier,
             "tick_ms": self.config.tick_ms,
@@ -52,7 +54,7 @@ class Home:
             "frame_skip": self.frame_skip,
         }
         changes = [f"environment.{key}={json.dumps(value)}" for key, value in fields.items()]
-        return Recipe.load("ski", (f"ppo.steps={steps}", *changes, *(QUICK_CHANGES if plan.quick else ())))
+        return Recipe.load(RECIPE, (f"ppo.steps={steps}", *changes, *(QUICK_CHANGES if plan.quick else ())))
 
     def folder(self, out: Path, seed: int) -> Path:
         """Of a run."""

@@ -80,8 +80,8 @@ class Transfer:
         lines = [
             "## Transfer",
             "",
-            f"PPO by the ski recipe, {made['steps']:,} decisions and {made['seeds']} training seeds in each "
-            f"physics, judged on {made['episodes']} episodes of {made['course']}; failures count as 60 s. "
+            f"PPO by the trade-off's own recipe, {made['steps']:,} decisions and {made['seeds']} training "
+            f"seeds in each physics, judged on {made['episodes']} episodes of {made['course']}; failures count as 60 s. "
             f"Gap: the same policies in the task (`{TASK.name}`) minus at home. Cost: in the task, minus "
             f"those that were trained there: above 0 is worse. In brackets {made['interval']}.",
             "",
