@@ -1,6 +1,6 @@
 """Studies: variants of a recipe, several training seeds each, judged on the same episodes.
 
-    python -m discjump_training.study training/studies/terrain.toml --runs runs/terrain --out results/terrain
+    python -m discjump_training.study training/studies/terrain.toml --runs runs/terrain --out results
 
 A study is a TOML file: a recipe, changes that all variants share, and variants by name with changes of their
 own. Runs that are there already and were made by the same recipe are not trained again, runs that broke off

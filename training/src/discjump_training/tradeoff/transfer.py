@@ -81,9 +81,9 @@ class Transfer:
             "## Transfer",
             "",
             f"PPO by the trade-off's own recipe, {made['steps']:,} decisions and {made['seeds']} training "
-            f"seeds in each physics, judged on {made['episodes']} episodes of {made['course']}; failures count as 60 s. "
-            f"Gap: the same policies in the task (`{TASK.name}`) minus at home. Cost: in the task, minus "
-            f"those that were trained there: above 0 is worse. In brackets {made['interval']}.",
+            f"seeds in each physics, judged on {made['episodes']} episodes of {made['course']}; failures "
+            f"count as 60 s. Gap: the same policies in the task (`{TASK.name}`) minus at home. Cost: in the "
+            f"task, minus those that were trained there: above 0 is worse. In brackets {made['interval']}.",
             "",
             "| trained in | time at home, s | time in the task, s | gap, s | gap, success | cost, s "
             "| cost, success | success in the task, % | failures | trained for, s |",
