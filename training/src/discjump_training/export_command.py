@@ -43,7 +43,7 @@ def export(policy: Path, out: Path | None, episodes: int | None, threads: int | 
         to_onnx(ppo, folder / "policy.onnx", {"task": recipe.task, **about})
         digest = hashlib.sha256((folder / "policy.onnx").read_bytes()).hexdigest()
         made = card.make(ppo, about, run, digest, episodes=episodes, threads=threads)
-        write_atomically(folder / "policy.zip", source.read_bytes())
+        model.save_to_play(ppo, folder / "policy.zip", about)
         write_atomically(folder / "recipe.toml", recipe.to_toml(help=True).encode())
         write_atomically(folder / "card.json", (json.dumps(made, indent=1) + "\n").encode())
         write_atomically(folder / "card.md", card.markdown(made).encode())

@@ -7,7 +7,7 @@ whole or not at all. Opening one runs code that it contains (pickles): open only
 import io
 import json
 import zipfile
-from collections.abc import Set
+from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import Any
 
@@ -28,16 +28,36 @@ ENTRIES = {"data", "policy.pth", "policy.optimizer.pth"}
 #: File that holds the best model of a run.
 BEST = "best.zip"
 
+#: Attributes of a model that only a training goes on with.
+LEARNING = ("_last_obs", "_last_original_obs", "_last_episode_starts", "ep_info_buffer", "ep_success_buffer")
 
-def save(model: PPO, path: Path, about: dict[str, Any], entries: dict[str, bytes] | None = None) -> None:
-    """Write `model`, the JSON-able `about` and further entries to one file, atomically."""
+
+def save(
+    model: PPO,
+    path: Path,
+    about: dict[str, Any],
+    entries: dict[str, bytes] | None = None,
+    *,
+    exclude: Sequence[str] = (),
+) -> None:
+    """Write `model` without the attributes in `exclude`, the JSON-able `about` and further entries to one
+    file, atomically.
+    """
     buffer = io.BytesIO()
-    model.save(buffer)
+    model.save(buffer, exclude=list(exclude))
     with zipfile.ZipFile(buffer, "a", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr(ABOUT, json.dumps(about))
         for name, content in (entries or {}).items():
             archive.writestr(name, content)
     write_atomically(path, buffer.getvalue())
+
+
+def save_to_play(model: PPO, path: Path, about: dict[str, Any]) -> None:
+    """Write what it takes to play, and not what only a training goes on with: a fifth of the size. The model
+    loses it, too.
+    """
+    model.policy.optimizer.state.clear()
+    save(model, path, about, exclude=LEARNING)
 
 
 def read_entry(path: Path, name: str) -> bytes:
