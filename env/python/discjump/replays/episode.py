@@ -86,7 +86,7 @@ class EpisodeReplay(Replay):
         arrays = tape.arrays(options.actions)
         terrains = None
         if options.terrains is not None:
-            terrains = [grounds.plain(terrain, arrays, solids=False)]
+            terrains = [grounds.plain(terrain, arrays, solids=options.GROUNDS == "stands")]
         header = {
             "kind": cls.KIND,
             "id": name,
