@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from discjump.envs.tasks import SKI
 from discjump_training.courses import HELD_OUT
+from discjump_training.curves import Curves
 from discjump_training.judge import Conditions, Entrant, Keep, evaluation, find, from_function, judge
 from discjump_training.judge.page import render
 from discjump_training.picture import SPEEDS
@@ -34,7 +36,7 @@ def page(tmp_path_factory):
     )
     (folder / "curve.csv").write_text(CURVE)
     path = folder / "evaluation.html"
-    path.write_text(render(made, {"runs/mine": folder / "curve.csv"}, {"skier": 22.0}))
+    path.write_text(render(made, Curves(SKI, {"runs/mine": [folder / "curve.csv"]}, {"skier": 22.0})))
     return path
 
 
@@ -91,10 +93,10 @@ def test_figures_stand_in_it_as_in_the_tables(page):
 def test_what_there_is_not_has_no_heading():
     conditions = Conditions(HELD_OUT, 3, threads=1)
     entered = [Entrant("skier", (find("skier", HELD_OUT),))]
-    text = render(evaluation(conditions, judge(entered, conditions)), {}, {})
+    text = render(evaluation(conditions, judge(entered, conditions)))
     for absent in ("Learning curve", "Pair by pair", "Episodes</h2>", "Partial"):
         assert absent not in text
-    assert "Partial" in render(evaluation(conditions, judge(entered, conditions), partial=True), {}, {})
+    assert "Partial" in render(evaluation(conditions, judge(entered, conditions), partial=True))
 
 
 def test_speeds_have_one_scale():

@@ -9,6 +9,7 @@ from discjump_training import intervals, model
 from discjump_training.courses import COURSES
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
+from discjump_training.recipe import at_full
 
 #: Fields of the card that the table of its Markdown shows, and their headings.
 ROWS = {
@@ -58,7 +59,7 @@ def make(
     # Models that are older than the table of tasks are ski's.
     task = TASKS[about.get("task", "ski")]
     course = COURSES[f"{task.name}-held-out-v1"]
-    stage = Stage(course, episodes, about["environment"], threads)
+    stage = Stage(course, episodes, at_full(about["environment"]), threads)
     try:
         model.check_spaces(ppo, "the policy", stage.env)
         played = stage.play(model.Greedy(ppo, "policy"))

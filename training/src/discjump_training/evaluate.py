@@ -10,7 +10,7 @@ from typing import Any
 from stable_baselines3 import PPO
 
 from discjump.envs.options import SkiOptions
-from discjump.envs.tasks import TASKS
+from discjump.envs.tasks import TASKS, Task
 from discjump.terrains import SURFACES
 from discjump_training import baselines, model
 from discjump_training.courses import Course, course_of
@@ -79,7 +79,11 @@ def on_stage(
     return stage, ppo
 
 
-def level(name: str, threads: int | None, task: str = "ski") -> float:
-    """Mean time of a baseline on the episodes that a task's learning curves are measured on, s."""
-    stage = Stage(course_of(task, "validation"), Watch().evaluate_episodes, baselines.options(task), threads)
-    return float(stage.play(baselines.make(name, stage)).seconds.mean())
+def level(name: str, threads: int | None, task: Task) -> float:
+    """Score of a baseline on the episodes that a task's learning curves are measured on: mean time, s, or
+    share of successes, %.
+    """
+    of = task.name
+    stage = Stage(course_of(of, "validation"), Watch().evaluate_episodes, baselines.options(of), threads)
+    played = stage.play(baselines.make(name, stage))
+    return float(played.seconds.mean() if task.score == "seconds" else 100.0 * played.success.mean())

@@ -1,6 +1,5 @@
 """The picture of an evaluation: command maps with the paths of a few episodes, and the learning curve."""
 
-import csv
 from pathlib import Path
 
 import matplotlib
@@ -9,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LightSource, Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from discjump import Terrain
+from discjump_training import curves as learning
+from discjump_training.curves import Curves
 from discjump_training.judge.conditions import Conditions
 from discjump_training.judge.judged import Judged
 from discjump_training.policy import Floats
@@ -31,8 +31,7 @@ def draw(
     path: Path,
     conditions: Conditions,
     judged: list[Judged],
-    curves: dict[str, Path],
-    levels: dict[str, float],
+    curves: Curves | None,
 ) -> None:
     """Draw the picture.
 
@@ -40,8 +39,7 @@ def draw(
         path: PNG to write.
         conditions: of the evaluation.
         judged: policies with recorded paths, the models first.
-        curves: learning curves (CSV) by name of the model; may be empty.
-        levels: mean time of each script on the course of the learning curves, s.
+        curves: learning curves of the models, where there are any.
     """
     episodes = sorted(judged[0].episodes.paths)
     columns = max(len(episodes), 1)
@@ -54,7 +52,7 @@ def draw(
         colours = matplotlib.cm.ScalarMappable(SPEEDS, COLOURS)
         figure.colorbar(colours, ax=maps, label="speed, m/s", location="right", fraction=0.02, pad=0.01)
     if curves:
-        learning_curve(figure.add_subplot(grid[1, :]), curves, levels)
+        learning.draw(figure.add_subplot(grid[1, :]), curves)
     figure.savefig(path, dpi=110)
 
 
@@ -113,28 +111,3 @@ def ground(axes: Axes, terrain: Terrain, corner: Floats, side: float, pixels: in
     axes.set_xlim(extent[0], extent[1])
     axes.set_ylim(extent[2], extent[3])
     axes.set_aspect("equal")
-
-
-def learning_curve(axes: Axes, curves: dict[str, Path], levels: dict[str, float]) -> None:
-    """Time to the beacon on the validation course over the decisions trained for, and the scripts' there."""
-    for name, path in curves.items():
-        with path.open(newline="") as file:
-            table = list(csv.DictReader(file))
-        steps = [int(row["steps"]) / 1e6 for row in table]
-        axes.plot(
-            steps,
-            [float(row["validation_seconds"]) for row in table],
-            marker=".",
-            label=name,
-        )
-    for (name, seconds), style in zip(levels.items(), ("dashed", "dotted", "dashdot"), strict=False):
-        axes.axhline(seconds, color="gray", linestyle=style, label=name)
-    axes.set_xlabel("decisions, millions")
-    axes.set_ylabel("time to beacon on the validation course, s")
-    # The first minutes fall from 60 s, the rest is a matter of tenths: only a logarithm shows both.
-    axes.set_yscale("log")
-    axes.yaxis.set_major_locator(FixedLocator([15, 16, 17, 18, 19, 20, 22, 25, 30, 40, 60]))
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)

@@ -28,6 +28,8 @@ Share = Annotated[float, Field(ge=0, le=1)]
 #: Options that a recipe cannot set: what is trained on is its course's to say, so that no recipe can train on
 #: the terrains that policies are judged on.
 GROUND = ("terrain_seeds", "terrains")
+#: Options that make learning easier: no policy is judged with them.
+EASING = ("difficulty", "curriculum")
 
 
 class Section(BaseModel):
@@ -48,6 +50,12 @@ class Environment(Section):
     def kwargs(self) -> dict[str, Any]:
         """Keyword arguments of the task's environment, terrains excepted."""
         return self.model_dump(exclude={"course"})
+
+    def judged(self) -> dict[str, Any]:
+        """The same for those that policies are judged in: at the task's own difficulty, whatever they learn
+        from.
+        """
+        return at_full(self.kwargs())
 
 
 class Rollout(Section):
@@ -186,6 +194,15 @@ class Recipe(Section):
         """This recipe as TOML; with `help`, each field's explanation stands above it."""
         options = TASKS[self.task].options
         return "\n".join(recipe_file.lines(self, "", help, options)).lstrip("\n") + "\n"
+
+
+def at_full(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of an environment without those that ease learning.
+
+    >>> at_full({"armor": "light", "curriculum": True})
+    {'armor': 'light'}
+    """
+    return {name: value for name, value in options.items() if name not in EASING}
 
 
 def _with_options(task: Task, section: Mapping[str, Any]) -> dict[str, Any]:

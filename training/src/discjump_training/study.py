@@ -130,7 +130,7 @@ def judge(study: Study, variant: str, folder: Path, threads: int | None) -> Judg
     """Play the course with the best model of every run of a variant that ended; None where there is none."""
     seconds, success, told, commands = [], [], [], []
     recipe = study.recipe_of(variant)
-    stage = Stage(COURSES[study.course], None, recipe.environment.kwargs(), threads)
+    stage = Stage(COURSES[study.course], None, recipe.environment.judged(), threads)
     for seed in study.seeds:
         where = folder / f"{variant}-{seed}"
         if not (where / "final.zip").exists():

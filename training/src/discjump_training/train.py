@@ -199,8 +199,7 @@ class Watcher(BaseCallback):
         self.validation = episodes.Stage(
             COURSES[recipe.watch.evaluate_course],
             recipe.watch.evaluate_episodes,
-            # Judged at the task's own difficulty, whatever it learns from.
-            {k: v for k, v in recipe.environment.kwargs().items() if k not in ("difficulty", "curriculum")},
+            recipe.environment.judged(),
             recipe.rollout.threads,
         )
         self.bar = tqdm(total=recipe.ppo.steps, unit=" steps", unit_scale=True, disable=quiet, smoothing=0.05)

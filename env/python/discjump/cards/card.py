@@ -18,7 +18,8 @@ def card(task: Task, scores: Mapping[str, Any] | None = None) -> str:
 
     Args:
         task: of the table `discjump.envs.tasks.TASKS`.
-        scores: reference scores: `command`, `course`, and `rows` of (policy, score as text); none where None.
+        scores: reference scores: `command`, `course`, and `heading` and `rows` of a table, as text; none
+            where None.
 
     >>> from discjump.envs.tasks import SKI
     >>> card(SKI).splitlines()[0]
@@ -159,7 +160,6 @@ def _scores(scores: Mapping[str, Any] | None) -> list[str]:
         "",
         f"`{scores['course']}`, by `{scores['command']}`:",
         "",
-        "| policy | score |",
-        "|---|---|",
-        *(f"| {policy} | {score} |" for policy, score in scores["rows"]),
+        *(f"| {' | '.join(cells)} |" for cells in [scores["heading"], ["---"] * len(scores["heading"])]),
+        *(f"| {' | '.join(cells)} |" for cells in scores["rows"]),
     ]

@@ -14,6 +14,7 @@ from discjump_training.courses import COURSES, Course, course_of
 from discjump_training.errors import clean_errors
 
 if TYPE_CHECKING:
+    from discjump_training.curves import Curves
     from discjump_training.judge import Evaluation
 
 #: Exit code after Ctrl-C, as shells have it.
@@ -103,9 +104,10 @@ def evaluate(
 
     POLICY is a model file of stable-baselines3, the folder of a run (its best model), an ONNX file, a Python
     callable as package.module:function (observation -> action, or a factory of one), a replay or a folder of
-    them, or a baseline by its name. NAME=POLICY,POLICY,... is a group: training seeds of one algorithm. All
-    play the same episodes. Results go to evaluation.json, .md, .png and .html in the folder of the first run
-    named, else in runs/evaluation. After Ctrl-C they hold what was played, marked as partial.
+    them, a baseline by its name, or `ppo`, the trained policy that comes with the package.
+    NAME=POLICY,POLICY,... is a group: training seeds of one algorithm. All play the same episodes. Results go
+    to evaluation.json, .md, .png and .html in the folder of the first run named, else in runs/evaluation.
+    After Ctrl-C they hold what was played, marked as partial.
 
     Opening a model file or a callable runs code it contains: open only what you trust.
     """
@@ -213,27 +215,22 @@ def telling(count: int) -> Callable[[str, int], None]:
 
 def write(folder: Path, made: "Evaluation", threads: int | None, *, page: bool) -> None:
     """Files of the results, and the tables on the terminal."""
-    from discjump_training import baselines, picture
-    from discjump_training import evaluate as models
+    from discjump_training import picture
     from discjump_training.files import write_atomically
     from discjump_training.judge import results, tables
 
     data = json.dumps(results.as_json(made), indent=1) + "\n"
     write_atomically(folder / "evaluation.json", data.encode())
     write_atomically(folder / "evaluation.md", tables.markdown(made).encode())
-    runs = {name: run for one in made.judged for name, run in one.runs.items()}
-    curves = {name: run / CURVE for name, run in runs.items() if (run / CURVE).is_file()}
-    task = made.conditions.task.name
-    scripts = [name for name in baselines.names(task) if name != "random"]
-    levels = {name: models.level(name, threads, task) for name in scripts} if curves else {}
+    curves = learning(made, threads)
     drawn = [one for one in made.judged if one.name != "random"] or made.judged
     if any(one.episodes.paths for one in drawn):
-        picture.draw(folder / "evaluation.png", made.conditions, drawn, curves, levels)
+        picture.draw(folder / "evaluation.png", made.conditions, drawn, curves)
     kinds = [("Figures", "json"), ("Table", "md"), ("Picture", "png")]
     if page:
         from discjump_training.judge.page import render
 
-        write_atomically(folder / "evaluation.html", render(made, curves, levels).encode())
+        write_atomically(folder / "evaluation.html", render(made, curves).encode())
         kinds.append(("Page", "html"))
     tables.show(Console(width=None if sys.stdout.isatty() else 160), made)
     for kind, suffix in kinds:
@@ -241,3 +238,19 @@ def write(folder: Path, made: "Evaluation", threads: int | None, *, page: bool) 
             click.echo(f"{kind + ':':9}{path}")
     if saved := sum(each.replay is not None for found in made.failures for each in found):
         click.echo(f"Failures: {saved} replays, listed in evaluation.json")
+
+
+def learning(made: "Evaluation", threads: int | None) -> "Curves | None":
+    """Learning curves of the runs that the judged models came out of, and the scripts' scores beside them."""
+    from discjump_training import baselines
+    from discjump_training import evaluate as models
+    from discjump_training.curves import Curves
+
+    found = {
+        one.name: [path for run in one.runs.values() if (path := run / CURVE).is_file()]
+        for one in made.judged
+    }
+    runs = {name: paths for name, paths in found.items() if paths}
+    task = made.conditions.task
+    scripts = baselines.scripts(task.name) if runs else ()
+    return Curves(task, runs, {name: models.level(name, threads, task) for name in scripts}) if runs else None

@@ -7,12 +7,12 @@ page.html the template
 """
 
 from importlib import resources
-from pathlib import Path
 from typing import Any
 
 import jinja2
 
 import discjump
+from discjump_training.curves import Curves
 from discjump_training.judge import tables
 from discjump_training.judge.evaluation import Evaluation
 from discjump_training.judge.failures import MEANING, Failure
@@ -24,13 +24,12 @@ from discjump_training.judge.page.embed import Markup
 LISTED = 12
 
 
-def render(made: Evaluation, curves: dict[str, Path], levels: dict[str, float]) -> str:
+def render(made: Evaluation, curves: Curves | None = None) -> str:
     """The report.
 
     Args:
         made: the evaluation.
-        curves: learning curves (CSV) by name of the run; may be empty.
-        levels: mean time of each script on the course of the learning curves, s.
+        curves: learning curves of the models, where there are any.
 
     Returns:
         HTML.
@@ -50,7 +49,7 @@ def render(made: Evaluation, curves: dict[str, Path], levels: dict[str, float]) 
         meaning=MEANING,
         failures=_listed(made),
         scores=charts.scores(made),
-        curve=charts.curve(curves, levels, made.conditions.task.goal) if curves else None,
+        curve=charts.curve(curves) if curves else None,
         episodes=[_episode(made, drawn, row) for row in _rows(drawn)],
         colours=[{"name": one.name, "colour": charts.colour(drawn, one.name)} for one in drawn],
         release=discjump.__version__,

@@ -1,14 +1,14 @@
 """Charts of the page: scores, learning curves, and the profiles of an episode."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from discjump import Terrain
-from discjump_training import picture
+from discjump_training import curves as learning
+from discjump_training.curves import Curves
 from discjump_training.judge.evaluation import Evaluation
 from discjump_training.judge.judged import Judged
 from discjump_training.judge.page.embed import Markup, svg
@@ -49,12 +49,12 @@ def scores(made: Evaluation) -> Markup:
     return svg(figure, "Share of episodes finished within a time, by policy")
 
 
-def curve(curves: dict[str, Path], levels: dict[str, float], goal: str) -> Markup:
+def curve(curves: Curves) -> Markup:
     """Learning curves of the runs that were judged."""
     figure = Figure(figsize=(5.6, 3.0), layout="constrained")
     axes = figure.add_subplot()
-    picture.learning_curve(axes, curves, levels)
-    axes.set_ylabel(f"time to {goal}, validation, s", fontsize=8)
+    learning.draw(axes, curves)
+    axes.set_ylabel(curves.title, fontsize=8)
     finished(axes)
     return svg(figure, "Learning curves")
 

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from discjump_training import baselines, model
+from discjump_training import baselines, model, shipped
 from discjump_training.courses import Course
 from discjump_training.errors import ModelError
 from discjump_training.judge.policies import function, onnx, sb3, tape
@@ -31,7 +31,8 @@ def find(name: str, course: Course, *, sampled: bool = False) -> Candidate:
     """The policy that a name means.
 
     Args:
-        name: a baseline; a file or folder with a model, an ONNX file or replays; `package.module:function`.
+        name: a baseline; `ppo`, the policy that ships for the task; a file or folder with a model, an ONNX
+            file or replays; `package.module:function`.
         course: whose task it will play.
         sampled: models draw their actions.
 
@@ -42,6 +43,8 @@ def find(name: str, course: Course, *, sampled: bool = False) -> Candidate:
     if name in known:
         needs = baselines.options(course.task)
         return Candidate(name, "baseline", lambda stage: baselines.make(name, stage), needs, name)
+    if name == shipped.NAME:
+        return sb3.candidate(shipped.policy(course.task), name, course.task, sampled=sampled)
     path = Path(name)
     if path.is_dir():
         if (path / model.BEST).exists():
@@ -57,8 +60,8 @@ def find(name: str, course: Course, *, sampled: bool = False) -> Candidate:
     elif FUNCTION.fullmatch(name):
         return function.imported(name)
     raise ModelError(
-        f"{name} is neither a baseline ({', '.join(known)}) nor a model file nor the folder of a run, "
-        "nor one with replays, nor package.module:function"
+        f"{name} is neither a baseline ({', '.join(known)}) nor {shipped.NAME} (the shipped policy) nor a "
+        "model file nor the folder of a run, nor one with replays, nor package.module:function"
     )
 
 

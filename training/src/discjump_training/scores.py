@@ -1,0 +1,120 @@
+"""Reference scores of all tasks, from the results that are committed, in one table.
+
+    python -m discjump_training.scores training/results
+
+reads TASK/evaluation.json (of `discjump evaluate`) and, where they are there, TASK/plan.json (of `discjump
+plan`) and bounds/TASK.json (of `python -m discjump_training.bounds`), and writes scores.json, which the cards
+of the tasks show, and scores.md.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from discjump.envs.tasks import TASKS, Task
+from discjump_training import intervals
+from discjump_training.cli import clean_errors
+from discjump_training.errors import TrainingError
+from discjump_training.files import write_atomically
+from discjump_training.intervals import Estimate
+from discjump_training.judge.tables import cell
+
+#: Commands that the figures come from; `N` is each training seed.
+COMMAND = "discjump evaluate ppo=runs/{name}-N,... --task {name} --planner training/results/{name}/plan.json"
+
+
+def read(path: Path) -> dict[str, Any] | None:
+    """A file of results; None where there is none.
+
+    Raises:
+        TrainingError: it is damaged.
+    """
+    if not path.is_file():
+        return None
+    try:
+        loaded: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise TrainingError(f"{path}: expected JSON, got something else: {error}") from None
+    return loaded
+
+
+def rows(task: Task, folder: Path) -> list[list[str]]:
+    """Policy, success, time, percent of the planner's: a row each, worst first.
+
+    Raises:
+        TrainingError: a file is damaged.
+    """
+    made = read(folder / task.name / "evaluation.json")
+    if made is None:
+        return []
+    found: list[list[str]] = []
+    try:
+        for one in made["policies"]:
+            runs = len(one["members"])
+            name = one["name"] if runs == 1 else f"{one['name']}, {runs} training seeds"
+            success, seconds = (Estimate(**one[key]) for key in ("success", "seconds"))
+            percent = one["percent_of_planner"]
+            found.append(
+                [
+                    name,
+                    f"{one['episodes']}",
+                    cell(success, "%", 1),
+                    cell(seconds, "s", 2),
+                    "" if percent is None else f"{percent['value']:.1f}",
+                ]
+            )
+        kinds = [one["kind"] for one in made["policies"]]
+        found = [found[index] for index in sorted(range(len(found)), key=lambda i: kinds[i] != "baseline")]
+        if (plan := read(folder / task.name / "plan.json")) is not None:
+            success = intervals.proportion(np.array([one["success"] for one in plan["episodes"]], np.bool_))
+            seconds = intervals.mean(np.array([one["seconds"] for one in plan["episodes"]]))
+            count = len(plan["episodes"])
+            found.append(["planner", f"{count}", cell(success, "%", 1), cell(seconds, "s", 2), "100"])
+    except (KeyError, TypeError, AttributeError) as error:
+        raise TrainingError(
+            f"{folder / task.name}: no results of this version: {type(error).__name__}: {error}"
+        ) from None
+    return found
+
+
+def heading(task: Task) -> list[str]:
+    """Of the columns."""
+    return ["policy", "episodes", "success, %", f"time to {task.goal}, s", "of the planner's, %"]
+
+
+def table(task: Task, cells: list[list[str]]) -> str:
+    """As Markdown."""
+    lines = [heading(task), ["---"] * len(heading(task)), *cells]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+@click.command()
+@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
+def main(folder: Path) -> None:
+    """Gather the results in FOLDER into scores.json and scores.md."""
+    with clean_errors():
+        gathered: dict[str, Any] = {}
+        text = []
+        for name, task in TASKS.items():
+            if cells := rows(task, folder):
+                course = f"{name}-held-out-v1"
+                command = COMMAND.format(name=name)
+                gathered[name] = {
+                    "course": course,
+                    "command": command,
+                    "heading": heading(task),
+                    "rows": cells,
+                }
+                text.append(f"`{task.id}`, `{course}`:\n\n{table(task, cells)}")
+        if not gathered:
+            raise TrainingError(f"{folder}: expected results of `discjump evaluate` in TASK/evaluation.json")
+        write_atomically(folder / "scores.json", (json.dumps(gathered, indent=1) + "\n").encode())
+        write_atomically(folder / "scores.md", "\n".join(text).encode())
+        click.echo("\n".join(text))
+
+
+if __name__ == "__main__":
+    main()
