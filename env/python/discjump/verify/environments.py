@@ -21,6 +21,14 @@ WIDTHS = (1, 8, 16, 32)
 IN_LANES = ("authentic", "swept", "fast")
 """Tiers that have lanes."""
 
+SHORTENED: Mapping[str, Mapping[str, Any]] = {
+    "discjump/DiscJump-v0": {"time_limit": 2.5, "marker_height": (10.0, 14.0)},
+    "discjump/Route-v0": {"time_limit": 4.0, "start_distance": (10.0, 80.0), "arrival_radius": 6.0},
+    "discjump/FlagRun-v0": {"time_limit": 4.0, "flags": ((-3.0, 0.0), (4.0, 2.0)), "arrival_radius": 4.0},
+}
+"""Options of ids whose own episodes are long: with these all ways to end turn up within few decisions."""
+POOL = {"terrain_seeds": (0, 1)}
+
 Make = Callable[..., Any]
 
 
@@ -216,4 +224,8 @@ class VectorBatch:
 
 def subjects(chosen: Sequence[str], tiers: Sequence[str] = FIDELITIES) -> list[Environment]:
     """These ids in these tiers."""
-    return [Environment(name, tier) for name in chosen for tier in tiers]
+    return [
+        Environment(name, tier, options=POOL | SHORTENED[name] if name in SHORTENED else {})
+        for name in chosen
+        for tier in tiers
+    ]
