@@ -24,7 +24,11 @@ IN_LANES = ("authentic", "swept", "fast")
 SHORTENED: Mapping[str, Mapping[str, Any]] = {
     "discjump/DiscJump-v0": {"time_limit": 2.5, "marker_height": (10.0, 14.0)},
     "discjump/Route-v0": {"time_limit": 4.0, "start_distance": (10.0, 80.0), "arrival_radius": 6.0},
-    "discjump/FlagRun-v0": {"time_limit": 4.0, "flags": ((-3.0, 0.0), (4.0, 2.0)), "arrival_radius": 4.0},
+    "discjump/FlagRun-v0": {
+        "time_limit": 5.0,
+        "flags": ((400.0, 300.0), (424.0, 303.0)),
+        "arrival_radius": 12.0,
+    },
 }
 """Options of ids whose own episodes are long: with these all ways to end turn up within few decisions."""
 POOL = {"terrain_seeds": (0, 1)}
