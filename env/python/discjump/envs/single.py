@@ -106,8 +106,8 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
 
         Args:
             seed: 0 to 2**64 - 1; None: the next episode of the last seed.
-            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m,
-                `terrain_seed` from the pool; what is left out is drawn.
+            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m (none
+                where it is a flag), `terrain_seed` from the pool; what is left out is drawn.
 
         Returns:
             Observation (size,) float32, and info (see `discjump.envs.infos`).

@@ -118,7 +118,9 @@ class TaskEnvs:
             options: see `placement.parse`.
             batched: `options` may hold one row per environment.
         """
-        places = placement.parse(options, self.terrain_seeds, self.num_envs, batched=batched)._asdict()
+        places = placement.parse(
+            options, self.terrain_seeds, self.num_envs, batched=batched, grounds=self.options.GROUNDS
+        )._asdict()
         if seeds is None and not self.batch.fresh:
             observations = self.batch.reset(None, mask, **places)
         else:
