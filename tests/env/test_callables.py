@@ -329,6 +329,21 @@ def test_what_fails_later_stops_the_environments_until_a_reset(which, wrong, err
     same_bits(envs.step(action), first)
 
 
+def test_a_mask_of_all_is_a_reset_of_all():
+    function = Failing(raising)
+    envs = make(2, AutoresetMode.DISABLED, observation_fn=function)
+    envs.reset(seed=0)
+    function.now = True
+    with pytest.raises(ZeroDivisionError):
+        envs.step(random_actions(0, 1, 2)[0])
+    function.now = False
+    envs.reset(options={"reset_mask": np.array([True, False])})
+    with pytest.raises(ResetNeeded):
+        envs.step(random_actions(0, 1, 2)[0])
+    envs.reset(options={"reset_mask": np.array([True, True])})
+    envs.step(random_actions(0, 1, 2)[0])
+
+
 def test_functions_cannot_write_into_what_they_see():
     def meddling(transition):
         transition.after.array[:] = 0

@@ -168,7 +168,7 @@ class TaskVecEnv(VecEnv):
         return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
-        """Take note of the actions (num_envs, 5); `step_wait` steps."""
+        """Take note of the actions, (num_envs, 5) or, with a launcher, (num_envs, 7); `step_wait` steps."""
         self.actions = actions
 
     def step_wait(

@@ -148,14 +148,14 @@ class Checked:
                     )
                 self.space = spaces.Box(-np.inf, np.inf, shape[1:], np.float32)
             self.observed(zeros, finite=False)
-            none = _locked(np.zeros(num_envs, np.bool_))
-            actions = _locked(np.tile(action, (num_envs, 1)))
-            rewards = _locked(np.zeros(num_envs))
+            none = locked(np.zeros(num_envs, np.bool_))
+            actions = locked(np.tile(action, (num_envs, 1)))
+            rewards = locked(np.zeros(num_envs))
             self.rewarded(Transition(zeros, zeros, actions, rewards, none, none), finite=False)
 
     def named(self, rows: NDArray[np.float32]) -> Observations:
         """The task's observations, with names and read-only."""
-        return Observations(_locked(rows), self._fields)
+        return Observations(locked(rows), self._fields)
 
     def observed(self, seen: Observations, *, finite: bool = True) -> NDArray[Any]:
         """What is observed instead, (rows, ...)."""
@@ -191,7 +191,7 @@ class Checked:
         return self._given.reward_fn is not None
 
 
-def _locked(array: NDArray[Any]) -> NDArray[Any]:
+def locked(array: NDArray[Any]) -> NDArray[Any]:
     """A view that cannot be written to."""
     view = array.view()
     view.flags.writeable = False

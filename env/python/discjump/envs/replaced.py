@@ -10,7 +10,7 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump._native import TaskBatch
-from discjump.envs.callables import Checked, Transition
+from discjump.envs.callables import Checked, Transition, locked
 
 Step = tuple[NDArray[Any], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
 One = tuple[NDArray[Any], float, bool, bool, dict[str, Any]]
@@ -52,7 +52,7 @@ class Replaced:
 
     def reset(self, observations: NDArray[np.float32], mask: NDArray[np.bool_] | None) -> NDArray[Any]:
         """What is observed instead, after a reset of the environments in `mask` (None: all)."""
-        if mask is None:
+        if mask is None or mask.all():
             self._failed = False
             self._over, self.returns = np.zeros_like(self._over), np.zeros_like(self.returns)
         else:
@@ -167,7 +167,7 @@ class Replaced:
             Transition(
                 named(before),
                 named(after),
-                *map(_locked, (np.asarray(actions), rewards, terminated, truncated)),
+                *map(locked, (np.asarray(actions), rewards, terminated, truncated)),
             )
         )
         # Where a step begins the next episode nothing was decided.
@@ -233,9 +233,3 @@ def unpacked(snapshot: bytes, wanted: int) -> tuple[bytes, NDArray[np.float64] |
     if count != wanted:
         raise ValueError(f"snapshot: expected one of {wanted} environments, got one of {count}")
     return snapshot[:first], np.frombuffer(sums, "<f8")
-
-
-def _locked(array: NDArray[Any]) -> NDArray[Any]:
-    view = array.view()
-    view.flags.writeable = False
-    return view
