@@ -161,9 +161,13 @@ WRONG = {
             (
                 {"flags": (STANDS[0], STANDS[0])},
                 ValueError,
-                "flags: expected more than 5 m between them, got 0 on terrain 0",
+                r"flags(\[0\])?: expected more than 5 m between them, got 0",
             ),
-            ({"flags": (STANDS[0], (9e5, 0.0))}, ValueError, "flags: expected places within the area"),
+            (
+                {"flags": (STANDS[0], (9e5, 0.0))},
+                ValueError,
+                r"flags(\[0\])?: expected places within the area",
+            ),
             ({"start_distance": (5.0, 1.0)}, ValueError, "start_distance: expected least <= largest"),
             ({"terrains": [bowl()]}, ValueError, r"terrains\[0\]: expected one with a mission, .* or flags="),
         ]
