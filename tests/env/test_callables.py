@@ -7,6 +7,7 @@ as without them.
 
 import copy
 import pickle
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -83,7 +84,9 @@ def test_what_the_functions_make_of_the_plain_environments(name, mode):
 
     options = {"terrain_seeds": [0], "time_limit": 1.5, "autoreset_mode": mode}
     plain = gymnasium.make_vec(task.id, num_envs=num, **options)
-    envs = gymnasium.make_vec(task.id, num_envs=num, observation_fn=observed, reward_fn=rewarded, **options)
+    envs: Any = gymnasium.make_vec(
+        task.id, num_envs=num, observation_fn=observed, reward_fn=rewarded, **options
+    )
     assert envs.single_observation_space.shape == (4,)
     field = next(one for one in envs.unwrapped.observation_layout if one.name == "speed")
     speed = lambda rows: rows[:, field.slice.start] * np.float32(field.scale)  # noqa: E731
@@ -113,7 +116,8 @@ def test_what_the_functions_make_of_the_plain_environments(name, mode):
             same_bits(mine["return"], np.where(ended, sums, 0))
             same_bits(mine["native_return"], yours["return"])
             changed = ("return", "native_return", "_native_return")
-            same_bits(*({k: v for k, v in one.items() if k not in changed} for one in (mine, yours)))
+            rest = [{k: v for k, v in one.items() if k not in changed} for one in (mine, yours)]
+            same_bits(rest[0], rest[1])
         if mode is AutoresetMode.SAME_STEP:
             sums[ended] = 0
         else:
@@ -306,7 +310,8 @@ def raising(_):
 )
 def test_what_fails_later_stops_the_environments_until_a_reset(which, wrong, error, words):
     function = Failing(wrong)
-    envs = SkiVectorEnv(2, **SHORT, **{which: function})
+    given: dict[str, Any] = {which: function}
+    envs = SkiVectorEnv(2, **SHORT, **given)
     envs.reset(seed=0)
     action = random_actions(0, 1, 2)[0]
     before = envs.snapshot()
@@ -368,7 +373,7 @@ def test_replays_hold_the_tasks_own(vector):
     given = {"observation_fn": glance, "reward_fn": hurry}
 
     def replays(**more):
-        make = gymnasium.make_vec if vector else gymnasium.make
+        make: Any = gymnasium.make_vec if vector else gymnasium.make
         env = record(make(ID, **SHORT, **more, **({"num_envs": 2} if vector else {})))
         env.reset(seed=5)
         for action in random_actions(1, 70, 2):

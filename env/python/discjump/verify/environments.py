@@ -30,7 +30,8 @@ SHORTENED: Mapping[str, Mapping[str, Any]] = {
         "arrival_radius": 12.0,
     },
 }
-"""Options of ids whose own episodes are long: with these all ways to end turn up within few decisions."""
+"""Options of ids whose own episodes are long: with these all ways to end turn up within few decisions; on the
+terrains of `POOL`."""
 POOL = {"terrain_seeds": (0, 1)}
 
 Make = Callable[..., Any]
@@ -229,7 +230,7 @@ class VectorBatch:
 def subjects(chosen: Sequence[str], tiers: Sequence[str] = FIDELITIES) -> list[Environment]:
     """These ids in these tiers."""
     return [
-        Environment(name, tier, options=POOL | SHORTENED[name] if name in SHORTENED else {})
+        Environment(name, tier, options={**POOL, **SHORTENED[name]} if name in SHORTENED else {})
         for name in chosen
         for tier in tiers
     ]
