@@ -41,7 +41,7 @@ def ids() -> list[str]:
     """The registered ids.
 
     >>> ids()
-    ['discjump/Ski-v0'...]
+    ['discjump/DiscJump-v0', 'discjump/FlagRun-v0', 'discjump/Route-v0', 'discjump/Ski-v0'...]
     """
     return sorted(
         spec.id
