@@ -25,7 +25,9 @@ SHORTENED: Mapping[str, Mapping[str, Any]] = {
     "discjump/DiscJump-v0": {"time_limit": 2.5, "marker_height": (10.0, 14.0)},
     "discjump/Route-v0": {"time_limit": 4.0, "start_distance": (10.0, 80.0), "arrival_radius": 6.0},
     "discjump/FlagRun-v0": {
-        "time_limit": 5.0,
+        "time_limit": 7.0,
+        "start_distance": (15.0, 60.0),
+        "start_speed": 60.0,
         "flags": ((400.0, 300.0), (424.0, 303.0)),
         "arrival_radius": 12.0,
     },
