@@ -13,7 +13,8 @@ from .play import SHORT, random_actions
 def documented():
     """Keys of the two tables: of every step, and of an episode's end."""
     assert infos.__doc__ is not None
-    tables = infos.__doc__.split("and when an episode ends")
+    # The third table is of some tasks and options alone: tests/env/test_tasks.py.
+    tables = re.split("and when an episode ends|and then", infos.__doc__)[:2]
     rows = [re.findall(r"^\| ([a-z_, ]+?) \|", table, re.MULTILINE) for table in tables]
     step, end = ([key for row in table if row != "key" for key in row.split(", ")] for table in rows)
     return step, end

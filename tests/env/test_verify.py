@@ -216,15 +216,16 @@ def test_ours_pass(certificate):
     rows = {row.row for row in certificate.rows}
     assert {"process fork", "process spawn", "autoreset Disabled", "way gymnasium.make", "seeds"} <= rows
     assert certificate.counts["compared"] > 200_000
-    ends = certificate.digests["discjump/Ski-v0"]["fast"].ends
-    assert min(ends["terminated"], ends["truncated"]) > 3
+    for name in ids():
+        ends = certificate.digests[name]["fast"].ends
+        assert min(ends["terminated"], ends["truncated"]) > 2, name
 
 
 def test_certificates_survive_the_disk(certificate, tmp_path):
     certificate.save(tmp_path / "one.json")
     assert Certificate.load(tmp_path / "one.json") == certificate
     verdicts = [one.verdict for one in compare(certificate, Certificate.load(GOLDEN)) if one.tier == "fast"]
-    assert verdicts.count("equal") == 2
+    assert verdicts.count("equal") == len(ids()) + 1
     assert set(verdicts) == {"equal", "gone"}
 
 
@@ -250,7 +251,7 @@ def test_what_is_no_certificate_is_refused(tmp_path, text, told):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        ({"ids": ["discjump/Sky-v0"]}, "ids: expected some of discjump/Ski-v0"),
+        ({"ids": ["discjump/Sky-v0"]}, "ids: expected some of discjump/DiscJump-v0, discjump/Fl"),
         ({"tiers": ["quick"]}, "tiers: expected some of reference"),
         ({"scene_names": ["moon"]}, "scene_names: expected some of"),
         ({"processes": ["thread"]}, "processes: expected some of"),

@@ -12,13 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 import discjump
+from discjump.envs import named
 from discjump.envs.named import SkiVectorEnv
+from discjump.envs.tasks import SKI, TASKS
 
 FILE = Path(__file__).with_name("digests.json")
 TERRAIN_SEEDS = (0, 1, 7, 10_000, 2**64 - 1)
 TIERS = ("authentic", "reference", "swept", "fast", "engine")
 NUM_ENVS, DECISIONS = 48, 500
 SCENE_DECISIONS = 75
+OTHERS = tuple(task for task in TASKS.values() if task is not SKI)
+"""Tasks with a launcher."""
+LAUNCHER_DECISIONS = 150
 
 
 def actions(decision: int) -> NDArray[np.int64]:
@@ -47,6 +52,29 @@ def rollout(fidelity: str, surface: str = "triangles") -> str:
     for decision in range(DECISIONS):
         for array in envs.step(actions(decision))[:4]:
             digest.update(array.tobytes())
+    digest.update(envs.state().tobytes())
+    return digest.hexdigest()
+
+
+def shooting(id: str, fidelity: str) -> str:
+    """Digest of a rollout of a task with a launcher: as `rollout`, and now and then a disc at one's feet."""
+    [task] = [task for task in OTHERS if task.id == id]
+    envs = getattr(named, task.classes[1])(
+        NUM_ENVS, fidelity=fidelity, threads=1, terrain_seeds=[0, 1, 2, 3], time_limit=12.0
+    )
+    digest = hashlib.sha256()
+    observations, _ = envs.reset(seed=0)
+    digest.update(observations.tobytes())
+    index = np.arange(NUM_ENVS)
+    ends = 0
+    for decision in range(LAUNCHER_DECISIONS):
+        fire = (decision + index) % 12 == 0
+        keys = np.column_stack([actions(decision), fire, index % 5])
+        step = envs.step(keys)
+        ends += int((step[2] | step[3]).sum())
+        for array in step[:4]:
+            digest.update(array.tobytes())
+    assert ends > 10, f"{id}, {fidelity}: {ends} episodes ended"
     digest.update(envs.state().tobytes())
     return digest.hexdigest()
 
@@ -91,6 +119,7 @@ def digests() -> dict[str, dict[str, str]]:
     """All golden digests, computed now."""
     return {
         "discjump/Ski-v0": {fidelity: rollout(fidelity) for fidelity in TIERS},
+        **{task.id: {fidelity: shooting(task.id, fidelity) for fidelity in TIERS} for task in OTHERS},
         **{
             f"scene {name}": {fidelity: scene(name, fidelity) for fidelity in TIERS}
             for name in ("sandbox", "disc_jump", "mission")

@@ -10,7 +10,7 @@ import pytest
 
 import discjump
 
-from .regenerate import FILE, TERRAIN_SEEDS, TIERS, rollout, scene
+from .regenerate import FILE, OTHERS, TERRAIN_SEEDS, TIERS, rollout, scene, shooting
 
 GOLDEN = json.loads(FILE.read_text())
 
@@ -19,6 +19,14 @@ GOLDEN = json.loads(FILE.read_text())
 def test_rollouts_have_their_golden_bits(fidelity: str) -> None:
     assert rollout(fidelity) == GOLDEN["discjump/Ski-v0"][fidelity], (
         "the bits of discjump/Ski-v0 changed: this needs a new id (see the version policy in CHANGELOG.md)"
+    )
+
+
+@pytest.mark.parametrize("fidelity", TIERS)
+@pytest.mark.parametrize("id", [task.id for task in OTHERS])
+def test_rollouts_of_shooting_tasks_have_their_golden_bits(id: str, fidelity: str) -> None:
+    assert shooting(id, fidelity) == GOLDEN[id][fidelity], (
+        f"the bits of {id} changed: this needs a new id (see the version policy in CHANGELOG.md)"
     )
 
 

@@ -10,13 +10,16 @@ from typing import Any, NoReturn
 
 import gymnasium
 import numpy as np
+from gymnasium import spaces
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump import _check
+from discjump.envs.callables import Callables, ObservationFn, RewardFn
+from discjump.envs.observations import ObservationField
 from discjump.envs.options import TaskOptions
 from discjump.envs.single import checked_render_mode
-from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
+from discjump.envs.task import TaskEnvs, seeds_of
 from discjump.envs.tasks import BY_ID
 
 try:
@@ -108,6 +111,8 @@ class TaskVecEnv(VecEnv):
         threads: threads that step the batch; None: one per core.
         lanes: players side by side in a register, as in `discjump.envs.vector`; no bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
+        observation_fn, reward_fn, observation_space: what replaces observation and reward, see
+            `discjump.envs.callables`.
         options: of the task.
     """
 
@@ -121,6 +126,9 @@ class TaskVecEnv(VecEnv):
         threads: int | None = None,
         lanes: int | None = None,
         render_mode: str | None = None,
+        observation_fn: ObservationFn | None = None,
+        reward_fn: RewardFn | None = None,
+        observation_space: spaces.Box | None = None,
     ) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.options = options
@@ -131,6 +139,7 @@ class TaskVecEnv(VecEnv):
             threads=threads,
             lanes=lanes,
             render=render_mode is not None,
+            callables=Callables(observation_fn, reward_fn, observation_space),
         )
         self._attributes: list[dict[str, Any]] = [{} for _ in range(num_envs)]
         self._quiet = SharedInfos([SHARED_INFO] * num_envs)
@@ -140,7 +149,7 @@ class TaskVecEnv(VecEnv):
 
     @property
     def observation_layout(self) -> list[ObservationField]:
-        """Fields of one observation in their order."""
+        """Fields of one of the task's own observations in their order."""
         return self._task.observation_layout
 
     def reset(self) -> NDArray[np.float32]:
@@ -159,7 +168,7 @@ class TaskVecEnv(VecEnv):
         return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
-        """Take note of the actions (num_envs, 5); `step_wait` steps."""
+        """Take note of the actions, (num_envs, 5) or, with a launcher, (num_envs, 7); `step_wait` steps."""
         self.actions = actions
 
     def step_wait(
@@ -175,24 +184,22 @@ class TaskVecEnv(VecEnv):
         batch = task.batch
         if batch.halted:
             raise ResetNeeded("step: expected a call of reset() first")
-        step = batch.step_dones
-        observations, rewards, dones, ended = (
-            step(self.actions) if task.camera is None else task.filmed(step, self.actions)
-        )
+        step = batch.step_dones if task.plain else task.step_dones
+        observations, rewards, dones, ended = step(self.actions)
         if not ended:
             return observations, rewards, dones, self._quiet
         return observations, rewards, dones, self._ends()
 
     def _ends(self) -> list[dict[str, Any]]:
         """The infos of a step that ended episodes."""
-        batch, begun = self._task.batch, self.reset_infos
+        task, batch, begun = self._task, self._task.batch, self.reset_infos
         elapsed = round(time.time() - self._started, 6)
         step_infos = self._quiet[:]
         for index, info, first, last in zip(
             batch.finished().tolist(),
-            batch.final_infos(),
+            task.final_infos(),
             batch.begun_infos(),
-            batch.final_observations(),
+            task.final_observations(),
             strict=True,
         ):
             info["terminal_observation"] = last
@@ -287,6 +294,9 @@ def make_vec_env(
     threads: int | None = None,
     lanes: int | None = None,
     render_mode: str | None = None,
+    observation_fn: ObservationFn | None = None,
+    reward_fn: RewardFn | None = None,
+    observation_space: spaces.Box | None = None,
     **options: Any,
 ) -> TaskVecEnv:
     """A stable-baselines3 vector environment.
@@ -298,6 +308,8 @@ def make_vec_env(
         threads: threads that step the batch; None: one per core.
         lanes: players side by side in a register, as in `discjump.envs.vector`; no bit depends on it.
         render_mode: None or `rgb_array`.
+        observation_fn, reward_fn, observation_space: what replaces observation and reward, see
+            `discjump.envs.callables`.
         **options: fields of the task's options.
 
     Raises:
@@ -317,6 +329,9 @@ def make_vec_env(
         threads=threads,
         lanes=lanes,
         render_mode=render_mode,
+        observation_fn=observation_fn,
+        reward_fn=reward_fn,
+        observation_space=observation_space,
     )
     if seeds is not None:
         envs._seeds = list(seeds)

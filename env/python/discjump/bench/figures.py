@@ -67,6 +67,9 @@ def calls() -> Iterator[Figure]:
         skip = f"frame_skip {frame_skip}"
         yield call(f"64 environments, VectorEnv.step, {skip}", Vector(64, frame_skip), vector)
         yield call(f"one environment, gymnasium.make, step, {skip}", Single(frame_skip), single)
+    for size in (64, MEDIUM):
+        what = f"observation_fn and reward_fn over the same step without, {size:,} environments"
+        yield beside(what, Vector(size, replaced=True), Vector(size), per_unit=False)
     endless = Agents(MEDIUM, threads=1, time_limit=ENDLESS, autoreset="same_step")
     what = "end and reset of one environment in a step of 4,096, Rust"
     yield beside(what, replace(endless, time_limit=ENDED), endless, per_unit=True, asked=2)

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from discjump._native import TaskBatch, Terrain, time_environments, time_players, time_resets
 from discjump.bench.clock import Ready, Unavailable, loop
+from discjump.envs.callables import Transition
+from discjump.envs.observations import Observations
 from discjump.envs.options import SkiOptions
 from discjump.simulator import Simulator
 from discjump.solids import Solid
@@ -169,6 +171,8 @@ class Vector:
     fidelity: str = "authentic"
     tick_ms: int = 32
     surface: str = "triangles"
+    replaced: bool = False
+    """Observation and reward go through Python."""
     calls: ClassVar[int | None] = None
 
     @property
@@ -178,6 +182,7 @@ class Vector:
 
     def make(self) -> Ready:
         """The environments, reset."""
+        functions: dict[str, Any] = {"observation_fn": identity, "reward_fn": shaped} if self.replaced else {}
         envs = gymnasium.make_vec(
             ENV_ID,
             num_envs=self.num_envs,
@@ -186,6 +191,7 @@ class Vector:
             fidelity=self.fidelity,
             tick_ms=self.tick_ms,
             surface=self.surface,
+            **functions,
         )
         observations, _ = envs.reset(seed=0)
         actions = random_actions(self.num_envs, np.dtype(self.dtype))
@@ -261,6 +267,16 @@ class Resets:
         chosen = np.linspace(0, self.num_envs - 1, 64).astype(np.int64)
         masks = np.arange(self.num_envs) == chosen[:, np.newaxis]
         return Ready(loop(lambda mask: envs.reset(options={"reset_mask": mask}), list(masks)))
+
+
+def identity(observations: Observations) -> NDArray[np.float32]:
+    """The task's own observations."""
+    return observations.array
+
+
+def shaped(transition: Transition) -> NDArray[np.float64]:
+    """The task's own rewards and a potential of the speed."""
+    return transition.rewards + 0.01 * (transition.after["speed"] - transition.before["speed"])
 
 
 def random_actions(num_envs: int, dtype: Any) -> NDArray[Any]:

@@ -147,7 +147,9 @@ def _reward(options: TaskOptions) -> list[str]:
             if value
         ),
         "",
-        f"What is left is {words.LEFT[options.GROUNDS]}. `reward={{...}}` changes weights.",
+        f"What is left is {words.LEFT[options.GROUNDS]}. `reward={{...}}` changes weights; `reward_fn` "
+        "and `observation_fn` put functions of your own in place of reward and observation "
+        "(`discjump.envs.callables`).",
     ]
 
 

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from discjump import _check
 
 KEYS = ("start", "goal", "terrain_seed")
+GOALS: Mapping[str, tuple[int, ...]] = {"beacon": (2,), "marker": (2, 3), "stands": ()}
+"""Numbers that a goal may be given by, for each kind of it (`TaskOptions.GROUNDS`)."""
 
 
 class Placement(NamedTuple):
@@ -17,22 +19,28 @@ class Placement(NamedTuple):
     start: NDArray[np.float64] | None = None
     """(num_envs, 2) or (num_envs, 3), m; rows of NaN are drawn."""
     goal: NDArray[np.float64] | None = None
-    """(num_envs, 2), m; rows of NaN are drawn."""
+    """(num_envs, 2) or, of markers, (num_envs, 3), m; rows of NaN are drawn."""
     terrain: NDArray[np.int64] | None = None
     """(num_envs,) indices into the pool."""
 
 
 def parse(
-    options: Mapping[str, Any] | None, pool: Sequence[int | None], num_envs: int, *, batched: bool
+    options: Mapping[str, Any] | None,
+    pool: Sequence[int | None],
+    num_envs: int,
+    *,
+    batched: bool,
+    grounds: str = "beacon",
 ) -> Placement:
     """The placement that `options` asks for.
 
     Args:
-        options: `start` (x, y) or (x, y, z) in m, `goal` (x, y) in m, `terrain_seed`; each may be left out,
-            and is drawn then.
+        options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m,
+            `terrain_seed`; each may be left out, and is drawn then.
         pool: seeds of the terrains in the pool, None for one that was not generated.
         num_envs: rows of the result.
         batched: one row per environment is accepted too, (num_envs, 2) and the like; a row of NaN is drawn.
+        grounds: kind of goal: `beacon`, `marker` or `stands`, where it is no place of one's own.
 
     Raises:
         TypeError, ValueError: naming the key, what was expected and what came.
@@ -49,9 +57,14 @@ def parse(
     if not isinstance(options, Mapping):
         raise TypeError(f"options: expected a mapping, got {options!r} of type {type(options).__name__}")
     _check.known("options", options, (*KEYS, "reset_mask") if batched else KEYS)
+    if not GOALS[grounds] and options.get("goal") is not None:
+        raise ValueError(
+            f"options['goal']: expected none where the goal is the enemy flag, got {options['goal']!r:.80}; "
+            "the environment's argument flags=((x, y), (x, y)) says where the flags stand"
+        )
     return Placement(
         _points("start", options.get("start"), (2, 3), num_envs, batched),
-        _points("goal", options.get("goal"), (2,), num_envs, batched),
+        _points("goal", options.get("goal"), GOALS[grounds], num_envs, batched),
         _terrain(options.get("terrain_seed"), pool, num_envs, batched),
     )
 

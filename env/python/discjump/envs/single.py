@@ -4,12 +4,15 @@ from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
+from gymnasium import spaces
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
+from discjump.envs.callables import Callables, ObservationFn, RewardFn
+from discjump.envs.observations import ObservationField
 from discjump.envs.options import TaskOptions
-from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
+from discjump.envs.task import TaskEnvs, seeds_of
 
 RENDER_MODES = ("rgb_array",)
 
@@ -29,6 +32,8 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
     Args:
         lanes: as for many environments; no bit depends on it.
         render_mode: None or `rgb_array`, the command map.
+        observation_fn, reward_fn, observation_space: what replaces observation and reward, see
+            `discjump.envs.callables`.
         **options: fields of the task's options.
 
     Attributes:
@@ -45,7 +50,16 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 7.8125}  # type: ignore[misc]
 
-    def __init__(self, *, lanes: int | None = None, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(
+        self,
+        *,
+        lanes: int | None = None,
+        render_mode: str | None = None,
+        observation_fn: ObservationFn | None = None,
+        reward_fn: RewardFn | None = None,
+        observation_space: spaces.Box | None = None,
+        **options: Any,
+    ) -> None:
         self.render_mode = checked_render_mode(render_mode)
         self.options = self.OPTIONS.from_keywords(options)
         self.metadata = {**type(self).metadata, "render_fps": 1 / self.options.decision_seconds}  # type: ignore[misc]
@@ -56,13 +70,14 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
             threads=1,
             lanes=lanes,
             render=self.render_mode is not None,
+            callables=Callables(observation_fn, reward_fn, observation_space),
         )
-        self.observation_space = self._task.observation_space
+        self.observation_space = self._task.observation_space  # type: ignore[assignment]
         self.action_space = self._task.action_space
 
     @property
     def observation_layout(self) -> list[ObservationField]:
-        """Fields of the observation in their order."""
+        """Fields of the task's own observation in their order."""
         return self._task.observation_layout
 
     @property
@@ -91,8 +106,8 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
 
         Args:
             seed: 0 to 2**64 - 1; None: the next episode of the last seed.
-            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m,
-                `terrain_seed` from the pool; what is left out is drawn.
+            options: `start` (x, y) or (x, y, z) in m, `goal` (x, y), of a marker also (x, y, z), in m (none
+                where it is a flag), `terrain_seed` from the pool; what is left out is drawn.
 
         Returns:
             Observation (size,) float32, and info (see `discjump.envs.infos`).
@@ -123,7 +138,7 @@ class TaskEnv(gymnasium.Env[NDArray[np.float32], NDArray[Any]]):
             raise ResetNeeded("step: expected a call of reset() first: no episode is running")
         if not isinstance(action, np.ndarray):
             action = self._array(action)
-        return batch.step_one(action) if task.camera is None else task.filmed(batch.step_one, action)
+        return batch.step_one(action) if task.plain else task.step_one(action)
 
     def _array(self, action: object) -> NDArray[Any]:
         """An action that came as numbers of Python's own."""

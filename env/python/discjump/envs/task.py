@@ -1,7 +1,8 @@
 """What the three front ends (single, vector, stable-baselines3) share: the batch, its spaces, its seeds."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar
+from functools import partial
+from typing import Any, TypeVar
 
 import numpy as np
 from gymnasium import spaces
@@ -10,24 +11,17 @@ from numpy.typing import NDArray
 from discjump import _check
 from discjump._native import Terrain
 from discjump.envs import placement
+from discjump.envs.callables import Callables, Checked
+from discjump.envs.observations import ObservationField
 from discjump.envs.options import TaskOptions
 from discjump.envs.render import Camera
+from discjump.envs.replaced import Native, One, Replaced, Step, unpacked
 
 Seeds = Sequence[int | None]
 Result = TypeVar("Result")
 
 SEEDED, OVER = 1, 2
 """Bits of a batch's flags."""
-
-
-class ObservationField(NamedTuple):
-    """One field of the flat observation."""
-
-    name: str
-    slice: slice
-    unit: str
-    scale: float
-    """Value in `unit` = observation * scale. A field that is not linear has unit "" and scale 1."""
 
 
 class TaskEnvs:
@@ -40,6 +34,10 @@ class TaskEnvs:
         threads: that step the batch; None: one per core.
         lanes: players side by side in a register; None: as many as the processor has.
         render: record the paths that pictures show.
+        callables: what replaces observation and reward.
+
+    Attributes:
+        plain: nothing is done beside the batch's own step.
     """
 
     def __init__(
@@ -51,6 +49,7 @@ class TaskEnvs:
         threads: int | None,
         lanes: int | None = None,
         render: bool = False,
+        callables: Callables | None = None,
     ) -> None:
         self._arguments: dict[str, Any] = {
             "options": options,
@@ -59,6 +58,7 @@ class TaskEnvs:
             "threads": threads,
             "lanes": lanes,
             "render": render,
+            "callables": callables,
         }
         self.options = options
         self.terrains: list[Terrain] = options.pool()
@@ -67,10 +67,10 @@ class TaskEnvs:
         self.num_envs = num_envs
         self.autoreset = autoreset
         self.camera = Camera(self.batch, self.terrains, options.arrival_radius) if render else None
-        """Watches the episodes where pictures are asked for; steps must go through `filmed` then."""
+        """Watches the episodes where pictures are asked for."""
 
         size, clip = self.batch.observation_size, self.batch.observation_clip
-        self.observation_space = spaces.Box(-clip, clip, (size,), np.float32)
+        self.observation_space: spaces.Box = spaces.Box(-clip, clip, (size,), np.float32)
         self.action_space: spaces.MultiDiscrete | spaces.Box
         if options.actions == "box":
             self.action_space = spaces.Box(-1.0, 1.0, (self.batch.action_size,), np.float32)
@@ -80,6 +80,15 @@ class TaskEnvs:
             ObservationField(name, slice(start, stop), unit, scale)
             for name, start, stop, unit, scale in self.batch.layout
         ]
+        self._replaced = self._replacing(callables) if callables else None
+        self.plain = self.camera is None and self._replaced is None
+
+    def _replacing(self, callables: Callables) -> Replaced:
+        action = np.zeros(self.action_space.shape, self.action_space.dtype)
+        size = self.batch.observation_size
+        checked = Checked(callables, self.observation_layout, size, action, self.num_envs)
+        self.observation_space = checked.space or self.observation_space
+        return Replaced(checked, self.batch, self.autoreset)
 
     @property
     def seeded(self) -> NDArray[np.bool_]:
@@ -98,8 +107,9 @@ class TaskEnvs:
         options: Mapping[str, Any] | None = None,
         *,
         batched: bool = False,
-    ) -> NDArray[np.float32]:
-        """Start new episodes and return the observations of all environments, (num_envs, size) float32.
+    ) -> NDArray[Any]:
+        """Start new episodes and return the observations of all environments, (num_envs, size) float32, or
+        what replaces them.
 
         Args:
             seeds: one per environment; None (in the list too): its next episode, or a seed from the
@@ -108,14 +118,16 @@ class TaskEnvs:
             options: see `placement.parse`.
             batched: `options` may hold one row per environment.
         """
-        places = placement.parse(options, self.terrain_seeds, self.num_envs, batched=batched)._asdict()
+        places = placement.parse(
+            options, self.terrain_seeds, self.num_envs, batched=batched, grounds=self.options.GROUNDS
+        )._asdict()
         if seeds is None and not self.batch.fresh:
             observations = self.batch.reset(None, mask, **places)
         else:
             observations = self._reset_seeded(seeds, mask, places)
         if self.camera is not None:
             self.camera.restart(np.ones(self.num_envs, np.bool_) if mask is None else mask)
-        return observations
+        return observations if self._replaced is None else self._replaced.reset(observations, mask)
 
     def _reset_seeded(
         self, seeds: Seeds | None, mask: NDArray[np.bool_] | None, places: dict[str, Any]
@@ -142,9 +154,46 @@ class TaskEnvs:
             self.batch.restore(before)
             raise
 
-    def filmed(self, step: Callable[[Any], Result], actions: object) -> Result:
-        """What `step(actions)` gives, and a picture's worth of it remembered."""
-        assert self.camera is not None
+    def step(self, actions: object) -> Step:
+        """The batch's `step`, filmed and replaced as far as that was asked for."""
+        play = partial(self._filmed, self.batch.step)
+        return play(actions) if self._replaced is None else self._replaced.step(play, actions)
+
+    def step_one(self, action: NDArray[Any]) -> One:
+        """The same of the batch's `step_one`."""
+        play = partial(self._filmed, self.batch.step_one)
+        return play(action) if self._replaced is None else self._replaced.step_one(play, action)
+
+    def step_dones(
+        self, actions: object
+    ) -> tuple[NDArray[Any], NDArray[np.float32], NDArray[np.bool_], bool]:
+        """The same of the batch's `step_dones`."""
+        if self._replaced is None:
+            return self._filmed(self.batch.step_dones, actions)
+        observations, rewards, terminated, truncated, _ = self.step(actions)
+        dones = terminated | truncated
+        return observations, rewards.astype(np.float32), dones, bool(dones.any())
+
+    def final_observations(self) -> NDArray[Any]:
+        """Last observations of the episodes that the last step ended, where the next ones have begun."""
+        return self.batch.final_observations() if self._replaced is None else self._replaced.finals
+
+    def final_infos(self) -> list[dict[str, Any]]:
+        """Their last infos."""
+        infos = self.batch.final_infos()
+        if self._replaced is None:
+            return infos
+        return self._replaced.infos_with_returns(infos, self.batch.finished())
+
+    @property
+    def native(self) -> Native | None:
+        """The task's own results of the last call, where they are replaced."""
+        return None if self._replaced is None else self._replaced.native
+
+    def _filmed(self, step: Callable[[Any], Result], actions: Any) -> Result:
+        """What `step(actions)` gives, and a picture's worth of it remembered where that is asked for."""
+        if self.camera is None:
+            return step(actions)
         before = self.over
         result = step(actions)
         if self.autoreset == "same_step":
@@ -155,7 +204,9 @@ class TaskEnvs:
 
     def snapshot(self, index: int | None = None) -> bytes:
         """Every environment in the middle of its episode, or the one of that index, for `restore`."""
-        return self.batch.snapshot(index if index is None else self._index(index))
+        index = index if index is None else self._index(index)
+        snapshot = self.batch.snapshot(index)
+        return snapshot if self._replaced is None else self._replaced.packed(snapshot, index)
 
     def restore(self, snapshot: bytes, index: int | None = None) -> None:
         """Put the batch back to a snapshot of itself, or of one with the same options; or one environment of
@@ -169,7 +220,10 @@ class TaskEnvs:
         if not isinstance(snapshot, bytes):
             raise TypeError(f"snapshot: expected bytes, got {type(snapshot).__name__}")
         index = index if index is None else self._index(index)
-        self.batch.restore(snapshot, index)
+        own, sums = unpacked(snapshot, self.num_envs if index is None else 1)
+        self.batch.restore(own, index)
+        if self._replaced is not None:
+            self._replaced.restored(sums, index)
         if self.camera is not None:
             changed = np.full(self.num_envs, index is None)
             changed[slice(None) if index is None else index] = True
@@ -182,14 +236,14 @@ class TaskEnvs:
         """What makes it again, in this process or another: a copy goes on with the same bits."""
         return {
             "arguments": self._arguments,
-            "snapshot": self.batch.snapshot(),
+            "snapshot": self.snapshot(),
             "paths": None if self.camera is None else self.camera.paths,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Make it again."""
         TaskEnvs.__init__(self, **state["arguments"])
-        self.batch.restore(state["snapshot"])
+        self.restore(state["snapshot"])
         if self.camera is not None:
             self.camera.paths = state["paths"]
 

@@ -3,15 +3,18 @@
 from typing import Any, ClassVar, NoReturn
 
 import numpy as np
+from gymnasium import spaces
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from discjump._native import Terrain
+from discjump.envs.callables import Callables, ObservationFn, RewardFn
+from discjump.envs.observations import ObservationField
 from discjump.envs.options import TaskOptions
 from discjump.envs.single import RENDER_MODES, checked_render_mode
-from discjump.envs.task import ObservationField, TaskEnvs, seeds_of
+from discjump.envs.task import TaskEnvs, seeds_of
 
 AUTORESET = {
     AutoresetMode.NEXT_STEP: "next_step",
@@ -40,6 +43,8 @@ class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         lanes: most players side by side: 1, 8, 16 or 32, as far as the processor has them; None: the
             environment variable `DISCJUMP_LANES` says, else the processor. No bit depends on it.
         render_mode: None or `rgb_array`, the command maps.
+        observation_fn, reward_fn, observation_space: what replaces observation and reward, see
+            `discjump.envs.callables`.
         **options: fields of the task's options.
 
     Raises:
@@ -62,6 +67,9 @@ class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         threads: int | None = None,
         lanes: int | None = None,
         render_mode: str | None = None,
+        observation_fn: ObservationFn | None = None,
+        reward_fn: RewardFn | None = None,
+        observation_space: spaces.Box | None = None,
         **options: Any,
     ) -> None:
         self.render_mode = checked_render_mode(render_mode)
@@ -79,6 +87,7 @@ class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
             threads=threads,
             lanes=lanes,
             render=self.render_mode is not None,
+            callables=Callables(observation_fn, reward_fn, observation_space),
         )
         self.num_envs = num_envs
         self.single_observation_space = self._task.observation_space
@@ -88,7 +97,7 @@ class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
 
     @property
     def observation_layout(self) -> list[ObservationField]:
-        """Fields of one observation in their order."""
+        """Fields of one of the task's own observations in their order."""
         return self._task.observation_layout
 
     @property
@@ -151,7 +160,7 @@ class TaskVectorEnv(VectorEnv[NDArray[np.float32], NDArray[Any], NDArray[Any]]):
         batch = task.batch
         if batch.halted:
             self._refuse()
-        return batch.step(actions) if task.camera is None else task.filmed(batch.step, actions)
+        return batch.step(actions) if task.plain else task.step(actions)
 
     def snapshot(self, index: int | None = None) -> bytes:
         """Every environment in the middle of its episode, or the one of that index, for `restore`."""

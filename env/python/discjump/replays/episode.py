@@ -32,8 +32,9 @@ from discjump.replays.tape import Tape
 class EpisodeReplay(Replay):
     """An episode of an environment: its seed and number, where it was put, and every action.
 
-    Arrays: `actions` (decisions, 5), `digests.state` and `digests.output` (1 + stretches, 8) after every so
-    many decisions, the beginning's first, `final` (1,): the last state where it could still be had.
+    Arrays: `actions` (decisions, 5), with a launcher (decisions, 7), `digests.state` and `digests.output`
+    (1 + stretches, 8) after every so many decisions, the beginning's first, `final` (1,): the last state
+    where it could still be had.
     """
 
     HEADER: ClassVar = {"id": str, "seed": int, "episode": int, "reset": dict}
@@ -86,7 +87,7 @@ class EpisodeReplay(Replay):
         arrays = tape.arrays(options.actions)
         terrains = None
         if options.terrains is not None:
-            terrains = [grounds.plain(terrain, arrays, solids=False)]
+            terrains = [grounds.plain(terrain, arrays, solids=options.GROUNDS == "stands")]
         header = {
             "kind": cls.KIND,
             "id": name,
@@ -113,7 +114,7 @@ class EpisodeReplay(Replay):
 
     @property
     def actions(self) -> NDArray[Any]:
-        """(decisions, 5): int8, or float32 of `actions="box"`."""
+        """(decisions, 5 or, with a launcher, 7): int8, or float32 of `actions="box"`."""
         return self.arrays["actions"]
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 from discjump import _check
 from discjump.envs.single import TaskEnv
 from discjump.replays.episode import EpisodeReplay
-from discjump.replays.shelf import EVERY, Deliver, Shelf, id_of, placed_at
+from discjump.replays.shelf import EVERY, Deliver, Shelf, alone, id_of, placed_at
 from discjump.replays.tape import Tape
 
 
@@ -20,11 +20,18 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
     that changes actions would be recorded as if it were not there. So must a `restore` not happen inside an
     episode: a replay is played from its beginning.
 
+    Where `observation_fn` or `reward_fn` replace the task's own observations and rewards, the task's own are
+    recorded: a replay is played without the functions.
+
     Args:
         env: to be recorded.
         folder: where replays are saved, one file each.
         every: decisions between two digests.
         on_replay: called with each replay.
+
+    Raises:
+        TypeError: `env` is not discjump's.
+        ValueError: a wrapper inside changes its actions, or it has `curriculum=True`.
 
     Attributes:
         replays: finished replays, where neither `folder` nor `on_replay` takes them.
@@ -52,6 +59,7 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
         if env.action_space != env.unwrapped.action_space:
             raise ValueError("env: expected a recorder inside of what changes actions, got it outside")
         self._inner: TaskEnv = env.unwrapped
+        alone(self._inner.options)
         self._id = id_of(env)
         self._every = _check.integer("every", every, 1, 2**20)
         self._shelf = Shelf(folder, on_replay)
@@ -67,9 +75,11 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
         """Start an episode; one under way is cut off there."""
-        observation, info = self.env.reset(seed=seed, options=options)
+        returned = observation, info = self.env.reset(seed=seed, options=options)
         self._cut()
         inner = self._inner
+        if (native := inner._task.native) is not None:
+            observation = native.observations[0]
         seeds, numbers = inner._task.batch.episodes()
         self._begun = {
             "seed": int(seeds[0]),
@@ -79,20 +89,22 @@ class Recorder(gymnasium.Wrapper[Any, Any, Any, Any]):
         }
         self._state = inner.state()
         self._tape = Tape(self._every, self._state, observation, info, inner.goal())
-        return observation, info
+        return returned
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """One decision."""
-        observation, reward, terminated, truncated, info = self.env.step(action)
+        returned = observation, reward, terminated, truncated, info = self.env.step(action)
         tape = self._tape
         if tape is not None:
+            if (native := self._inner._task.native) is not None:
+                observation, reward, info = native.observations[0], native.rewards[0], native.info
             over = terminated or truncated
             self._state = self._inner.state()
             taken = np.array(action)
             tape.add(taken, observation, reward, terminated, truncated, info, self._state)
             if over:
                 self._finish()
-        return observation, reward, terminated, truncated, info
+        return returned
 
     def close(self) -> None:
         """Cut off what is under way, and close the environment."""

@@ -7,6 +7,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 
+from discjump.envs.options import TaskOptions
 from discjump.envs.placement import KEYS
 from discjump.replays.episode import EpisodeReplay
 
@@ -54,6 +55,20 @@ def id_of(env: Any) -> str:
         if name.startswith("discjump/") and place in (spec.entry_point, spec.vector_entry_point):
             return name
     raise ValueError(f"env: expected one of a registered id, got a {made.__qualname__} without")
+
+
+def alone(options: TaskOptions) -> None:
+    """Refuse options under which an episode is not a function of its seed, its number and where it is put.
+
+    Raises:
+        ValueError: `curriculum=True`.
+    """
+    if options.curriculum:
+        raise ValueError(
+            "env: expected one without curriculum, whose episodes can be played again alone, got "
+            "curriculum=True: there an episode depends on how those before it ended (record one with "
+            "difficulty='easy', 'standard' or 'hard')"
+        )
 
 
 def placed_at(options: Mapping[str, Any] | None, row: int | None) -> dict[str, Any]:

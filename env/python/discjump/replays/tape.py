@@ -26,8 +26,11 @@ OUTCOME = (
     "damage",
     "start_distance",
     "distance",
+    "marker_height",
+    "carrying",
+    "flags_taken",
 )
-"""Keys of the last info that are kept."""
+"""Keys of the last info that are kept, as far as the task has them."""
 
 
 @dataclass

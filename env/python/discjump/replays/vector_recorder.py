@@ -12,7 +12,7 @@ from discjump import _check
 from discjump.envs.vector import TaskVectorEnv
 from discjump.replays.episode import EpisodeReplay
 from discjump.replays.recorder import Recorder
-from discjump.replays.shelf import EVERY, Deliver, Shelf, id_of, placed_at
+from discjump.replays.shelf import EVERY, Deliver, Shelf, alone, id_of, placed_at
 from discjump.replays.tape import Tape
 
 
@@ -26,6 +26,10 @@ class VectorRecorder(VectorWrapper):
         folder, every, on_replay: as for `Recorder`.
         rows: which environments; None: all.
         episodes: how many of each environment; None: all.
+
+    Raises:
+        TypeError: `env` is not discjump's.
+        ValueError: it has `curriculum=True`.
     """
 
     def __init__(
@@ -42,6 +46,7 @@ class VectorRecorder(VectorWrapper):
             raise TypeError(f"env: expected a vector environment of discjump, got {env.unwrapped!r:.80}")
         super().__init__(env)
         self._inner: TaskVectorEnv = env.unwrapped
+        alone(self._inner.options)
         self._id = id_of(env)
         self._every = _check.integer("every", every, 1, 2**20)
         self._shelf = Shelf(folder, on_replay)
@@ -61,20 +66,24 @@ class VectorRecorder(VectorWrapper):
         # Whose episode ends here must be known while its state is still there.
         mask = (options or {}).get("reset_mask")
         before = self._inner.state() if self._tapes else None
-        observations, infos = self.env.reset(seed=seed, options=options)
+        returned = observations, infos = self.env.reset(seed=seed, options=options)
+        if (native := self._inner._task.native) is not None:
+            observations = native.observations
         rows = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
         for row in rows.tolist():
             if row in self._tapes and before is not None:
                 self._cut(row, before[row])
         self._begin(rows, observations, infos, options)
-        return observations, infos
+        return returned
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """One decision of every environment."""
         seen = self.env.step(actions)
-        observations, rewards, terminations, truncations, infos = seen
         if not self._left:
             return seen
+        observations, rewards, terminations, truncations, infos = seen
+        if (native := self._inner._task.native) is not None:
+            observations, rewards, infos = native
         over = terminations | truncations
         same_step = self._inner.autoreset_mode == AutoresetMode.SAME_STEP
         ended = [row for row in self._tapes if over[row]]

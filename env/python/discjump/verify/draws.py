@@ -12,7 +12,7 @@ WORD = 2**64
 HOLD = 5
 """Decisions for which an action that was drawn is held."""
 SKI_KEYS = [3, 3, 2, 2, 7]
-"""Forward, strafe, jump, jet, turn."""
+"""Forward, strafe, jump, jet, turn; with a launcher fire and pitch follow."""
 
 Driver = Callable[[int, int, NDArray[Any]], Any]
 """(environment's seed, decision, its observation) to its action."""
@@ -69,17 +69,18 @@ def drawn(space: spaces.Space[Any], *words: int) -> Any:
 
 
 def driver(space: spaces.Space[Any], layout: Sequence[Any]) -> Driver:
-    """Who acts in an environment: at random, and on a course with a beacon half of them ski to it.
+    """Who acts in an environment: at random, and where there is a goal half of them ski to it.
 
     Args:
         space: of one action.
         layout: fields of the observation with `name` and `slice`; empty where nothing is known of them.
     """
     fields = {field.name: field.slice for field in layout}
-    skis = isinstance(space, spaces.MultiDiscrete) and space.nvec.tolist() == SKI_KEYS
-    if not skis or not {"beacon_direction", "speed"} <= fields.keys():
+    skis = isinstance(space, spaces.MultiDiscrete) and space.nvec[: len(SKI_KEYS)].tolist() == SKI_KEYS
+    directions = [fields[name] for name in ("beacon_direction", "goal_direction") if name in fields]
+    if not skis or not directions or "speed" not in fields:
         return lambda seed, decision, observation: drawn(space, seed, decision // HOLD)
-    towards, speed = fields["beacon_direction"], fields["speed"]
+    [towards], speed = directions, fields["speed"]
 
     @lru_cache(HOLD)
     def held(seed: int, block: int) -> Any:
@@ -96,6 +97,9 @@ def driver(space: spaces.Space[Any], layout: Sequence[Any]) -> Driver:
         bins = sum(abs(right) > least for least in (0.03, 0.1, 0.3)) if ahead > 0 else 3
         action[3] = action[3] if seed % 4 else float(observation[speed][0]) < 0.75
         action[4] = 3 - bins if right > 0 else 3 + bins
+        if not seed % 4:
+            # Who shoots at his feet does not come far.
+            action[len(SKI_KEYS) : len(SKI_KEYS) + 1] = 0
         return action
 
     return ski

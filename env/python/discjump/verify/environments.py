@@ -21,6 +21,21 @@ WIDTHS = (1, 8, 16, 32)
 IN_LANES = ("authentic", "swept", "fast")
 """Tiers that have lanes."""
 
+SHORTENED: Mapping[str, Mapping[str, Any]] = {
+    "discjump/DiscJump-v0": {"time_limit": 2.5, "marker_height": (10.0, 14.0)},
+    "discjump/Route-v0": {"time_limit": 4.0, "start_distance": (10.0, 80.0), "arrival_radius": 6.0},
+    "discjump/FlagRun-v0": {
+        "time_limit": 7.0,
+        "start_distance": (15.0, 60.0),
+        "start_speed": 60.0,
+        "flags": ((400.0, 300.0), (424.0, 303.0)),
+        "arrival_radius": 12.0,
+    },
+}
+"""Options of ids whose own episodes are long: with these all ways to end turn up within few decisions; on the
+terrains of `POOL`."""
+POOL = {"terrain_seeds": (0, 1)}
+
 Make = Callable[..., Any]
 
 
@@ -28,7 +43,7 @@ def ids() -> list[str]:
     """The registered ids.
 
     >>> ids()
-    ['discjump/Ski-v0'...]
+    ['discjump/DiscJump-v0', 'discjump/FlagRun-v0', 'discjump/Route-v0', 'discjump/Ski-v0'...]
     """
     return sorted(
         spec.id
@@ -216,4 +231,8 @@ class VectorBatch:
 
 def subjects(chosen: Sequence[str], tiers: Sequence[str] = FIDELITIES) -> list[Environment]:
     """These ids in these tiers."""
-    return [Environment(name, tier) for name in chosen for tier in tiers]
+    return [
+        Environment(name, tier, options={**POOL, **SHORTENED[name]} if name in SHORTENED else {})
+        for name in chosen
+        for tier in tiers
+    ]

@@ -36,7 +36,7 @@ class Form:
 
 
 FULL = Form("full", 64, True, None, (60, 6), 4, 32, 3, True, 16, (1, 31, 63))
-QUICK = Form("quick", 12, False, 200, (10, 1), 2, 8, 1, False, 4, (31,))
+QUICK = Form("quick", 12, False, 200, (3, 1), 2, 8, 1, False, 4, (31,))
 
 
 def whole(form: Form, batch: int, threads: int, lanes: int, widths: list[int]) -> bool:

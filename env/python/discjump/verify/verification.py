@@ -45,7 +45,7 @@ def verify(
     Raises:
         ValueError: an unknown id, tier, scene or start method.
 
-    >>> certificate = verify(tiers=["fast"], scene_names=[], quick=True, processes=[])
+    >>> certificate = verify(["discjump/Ski-v0"], ["fast"], [], quick=True, processes=[])
     >>> [row.row for row in certificate.failed], len(certificate.digests["discjump/Ski-v0"]["fast"].digest)
     ([], 64)
     """
