@@ -21,6 +21,8 @@ Times = NDArray[np.int64]
 NEVER = 1 << 30
 #: Ticks that players stand on the plane first: then they have touched it, and are at rest.
 STANDING = 32
+#: Played side by side: more do not fit a processor's caches.
+BATCH = 2_048
 #: Ticks after the jump in which somebody may still rise.
 LONGEST = 1_024
 #: Pitches that a discrete action can have, rad.
@@ -132,6 +134,14 @@ def heights(armor: str, jumps: Jumps, ticks: int = 1, tick_ms: int = 32) -> Heig
         ticks: of a decision.
         tick_ms: length of a tick.
     """
+    parts = [
+        _heights(armor, jumps.take(slice(start, start + BATCH)), ticks, tick_ms)
+        for start in range(0, len(jumps), BATCH)
+    ]
+    return Heights(*(np.concatenate([getattr(one, f.name) for one in parts]) for f in fields(Heights)))
+
+
+def _heights(armor: str, jumps: Jumps, ticks: int, tick_ms: int) -> Heights:
     plane = Terrain.from_heights(np.zeros((9, 9)))
     sim = Simulator(plane, len(jumps), "disc_jump", armor=armor, threads=1, tick_ms=tick_ms, ammo=3)
     sim.step(sim.inputs(), STANDING)

@@ -31,6 +31,7 @@ between, other pitches, turns later than at the beginning, more than one directi
 can be reached; what is not may still be reachable.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -169,7 +170,11 @@ def plan(stage: str, waits: tuple[int, int], tried: list[tuple[Tries, Results]])
         wait = sorted(set(waits))
         return Tries.grid({"wait": wait, "push,pushing": PUSHES, "lit": LIT, "shot": SHOT})
     if stage in WALKS:
-        ground = {"wait": [waits[1]], "walk,walking": WALKS[stage], "push,pushing": PUSHES}
+        ground: dict[str, Sequence[Any]] = {
+            "wait": [waits[1]],
+            "walk,walking": WALKS[stage],
+            "push,pushing": PUSHES,
+        }
         return Tries.grid({**ground, "lit": [0, 2], "shot": [1, 2]})
     if stage == "aim":
         unsteered = _best([one for one in tried if not one[0].steering.any()], AIMED)
