@@ -44,7 +44,8 @@ def flight(armor):
 def test_jump_and_jets_are_the_recurrences(armor):
     alone = Jumps.grid(lit=steps(-8, 8, 1))
     made = jumps.heights(armor, alone)
-    assert made.apex[alone.lit == 0][0] == pytest.approx(flight(armor), abs=0.1)
+    # In float32 the tank comes to 1 and to 5 a tick earlier or later.
+    assert made.apex[alone.lit == 0][0] == pytest.approx(flight(armor), rel=0.003)
     assert (made.damage == 0).all()
     # The lower end of the markers' heights is what this reaches, and the radius.
     assert HEIGHTS[armor][0] == round(made.apex.max() + 8.0)
@@ -208,13 +209,14 @@ def test_turns_end_where_they_should():
 
 def test_copies_begin_where_the_episode_is():
     env = gymnasium.make_vec(
-        DISC_JUMP.id, num_envs=2, threads=1, terrain_seeds=[3], marker_height=(0.0, 0.0), **SMALL
+        DISC_JUMP.id, num_envs=2, threads=1, terrain_seeds=[3], marker_height=(60.0, 60.0), **SMALL
     ).unwrapped
     env.reset(seed=[1, 2])
-    copies = Copies({"terrain_seeds": [3], "marker_height": (0.0, 0.0), "marker_offset": 0.0}, (4,))
+    copies = Copies({"terrain_seeds": [3], "marker_height": (60.0, 60.0), "marker_offset": 0.0}, (4,))
+    copies.place(env.snapshot(0))
+    tries = Tries.grid({"wait": [0]})
     with pytest.raises(ValueError, match="options"):
-        copies.place(env.snapshot(0))
-        copies.play(Tries.grid({"wait": [0]}), np.full((1, 1), 3))
+        copies.play(tries, np.full((1, 1), 3))
     env.close()
     copies.close()
 

@@ -33,7 +33,6 @@ def test_the_apex_is_that_of_a_flight_in_the_simulator(armor):
         when = np.where(height > highest, 0.032 * (tick + 1), when)
         highest = np.maximum(highest, height)
     told, time = apex(rise, energy, armor)
-    # An empty tank lights now and then: a little more than the parabolas say.
     np.testing.assert_allclose(highest - 500.0, np.maximum(told, 0.0), rtol=0.03, atol=2.5)
     np.testing.assert_allclose(when[told > 5], time[told > 5], rtol=0.08, atol=0.2)
 

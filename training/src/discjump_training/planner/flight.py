@@ -1,19 +1,19 @@
 """Where a flight leads that goes on with all of its jets: by how much it misses a marker.
 
-Free flight and jets straight up are parabolas (core/docs/physics.md, sections 2 and 4): the jets last as long
-as the tank, which recharges meanwhile.
+Jets straight up make parabolas (core/docs/physics.md, sections 2 and 4): one as long as the tank lasts, which
+recharges meanwhile, and another after it, when what is recharged lights the jets now and then.
 """
 
 import numpy as np
 
 from discjump_training.policy import Floats, Layout, Observations
 
-GRAVITY = 20.0
-#: Acceleration upwards with jets, m/s^2, and energy that they use up in a second, by armor.
-CLIMB = {"light": 236 / 9 - GRAVITY, "medium": 320 / 13 - GRAVITY, "heavy": 385 / 18 - GRAVITY}
-DRAIN = {"light": 25.0 - 8.0, "medium": 31.25 - 8.0, "heavy": 34.375 - 8.0}
-#: Energy below which jets go out.
-CUT = 1.0
+GRAVITY, RECHARGE = 20.0, 8.0
+#: Acceleration by jets, m/s^2, and energy that they take in a second, by armor.
+THRUST = {"light": 236 / 9, "medium": 320 / 13, "heavy": 385 / 18}
+DRAIN = {"light": 25.0, "medium": 31.25, "heavy": 34.375}
+#: Energy that stays in the tank on average: jets go out at 1 and light again at 5.
+KEPT = 3.0
 #: What a second until the marker counts, m: of two flights that reach it the sooner one is better.
 HASTE = 0.05
 
@@ -26,11 +26,12 @@ def apex(rise: Floats, energy: Floats, armor: str) -> tuple[Floats, Floats]:
         energy: in the tank, (n,).
         armor: of the player.
     """
-    burn = np.maximum(energy - CUT, 0.0) / DRAIN[armor]
-    fast = rise + CLIMB[armor] * burn
-    height = rise * burn + 0.5 * CLIMB[armor] * burn**2
+    thrust, drain = THRUST[armor], DRAIN[armor]
+    burn = np.maximum(energy - KEPT, 0.0) / (drain - RECHARGE)
+    climb, fall = thrust - GRAVITY, GRAVITY - thrust * RECHARGE / drain
+    fast = rise + climb * burn
     free = np.maximum(fast, 0.0)
-    return height + free**2 / (2 * GRAVITY), burn + free / GRAVITY
+    return rise * burn + 0.5 * climb * burn**2 + free**2 / (2 * fall), burn + free / fall
 
 
 def miss(layout: Layout, observations: Observations, armor: str, radius: float) -> Floats:
