@@ -45,7 +45,7 @@ class Settings:
     guided: float = 0.25
     """share of the sequences that a model or script completes while they are simulated; 0 without one"""
     objective: str = "task"
-    """what is wanted where no value network judges: `task` (the task's own objective), `rewards` (their sum)"""
+    """what is wanted where no value network judges: `task` (its own objective), `rewards` (their sum)"""
     seed: int = 0
     """of all draws"""
 
