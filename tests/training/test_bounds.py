@@ -215,7 +215,7 @@ def test_copies_begin_where_the_episode_is():
     copies = Copies({"terrain_seeds": [3], "marker_height": (60.0, 60.0), "marker_offset": 0.0}, (4,))
     copies.place(env.snapshot(0))
     tries = Tries.grid({"wait": [0]})
-    with pytest.raises(ValueError, match="options"):
+    with pytest.raises(ValueError, match="another layout"):
         copies.play(tries, np.full((1, 1), 3))
     env.close()
     copies.close()
