@@ -9,9 +9,10 @@ From rest on a plane, on a full tank, without another key. All combinations are 
 | jets off again | never; from 0 to 6 ticks after the jump for 2, 4 or 8 ticks |
 | pitch, degrees | the five of the discrete action; at decisions of one tick also -85, -80, -75, -70 |
 
-Of two discs (the second can be fired 56 ticks after the first) all combinations of the first shot 0 to 6 ticks
-after the first jump or without one, the second shot up to tick 124, the second jump 0 to 4 ticks before it, and
-jets lit with the first jump, or 4 ticks before to 2 after the second one. The view is straight down for both.
+Of two discs (the second can be fired 56 ticks after the first) all combinations are played of the first shot
+0 to 6 ticks after the first jump or without one, the second shot up to tick 124, the second jump 0 to 4 ticks
+before it, and jets lit with the first jump, or 4 ticks before to 2 after the second one. The view is straight
+down for both.
 
 At decisions of `n` ticks everything happens at multiples of `n`, and keys are held so long. Not searched:
 walking, turning, other grounds than a plane, more than one gap of the jets.
