@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from discjump_training.bounds.reachable import Reachable
 from discjump_training.courses import row
 from discjump_training.intervals import Estimate
 from discjump_training.judge import compare as comparing
 from discjump_training.judge import planner as planning
+from discjump_training.judge import reachable as reaching
 from discjump_training.judge import statistics
 from discjump_training.judge.compare import Comparison
 from discjump_training.judge.conditions import Conditions
@@ -52,6 +54,8 @@ class Evaluation:
         comparisons: pair by pair.
         bands: by difficulty, where the task has one.
         percent: of the planner's score, of each policy; empty without a planner.
+        search: what an exhaustive search reaches on the course; None where nobody searched.
+        reachable: share of what it reaches, and of how many, of each policy; empty where nobody searched.
     """
 
     conditions: Conditions
@@ -62,6 +66,8 @@ class Evaluation:
     comparisons: list[Comparison]
     bands: list[InBand]
     percent: list[tuple[Estimate, int] | None]
+    search: Reachable | None
+    reachable: list[tuple[Estimate, int] | None]
 
     @property
     def columns(self) -> tuple[Figure, ...]:
@@ -78,6 +84,7 @@ def evaluation(
         TrainingError: two policies did not play the same episodes.
     """
     score = conditions.task.score
+    search = reaching.known(conditions)
     return Evaluation(
         conditions,
         judged,
@@ -87,6 +94,8 @@ def evaluation(
         comparisons=[comparing.compare(a, b, score) for a, b in comparing.pairs(judged)],
         bands=[band for one in judged for band in bands(one, conditions.task.name)],
         percent=[] if planner is None else [planning.percent(one, planner, score) for one in judged],
+        search=search,
+        reachable=[] if search is None else [reaching.share(one, search) for one in judged],
     )
 
 

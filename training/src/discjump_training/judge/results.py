@@ -76,6 +76,7 @@ def as_json(made: Evaluation) -> dict[str, Any]:
 def _policy(made: Evaluation, index: int) -> dict[str, Any]:
     one, found = made.judged[index], made.failures[index]
     percent = made.percent[index] if made.percent else None
+    reached = made.reachable[index] if made.reachable else None
     return {
         "name": one.name,
         "kind": one.kind,
@@ -85,6 +86,7 @@ def _policy(made: Evaluation, index: int) -> dict[str, Any]:
         "partial": len(one.episodes) < made.conditions.episodes,
         **{key: estimate.as_dict() for key, estimate in made.figures[index].items()},
         "percent_of_planner": None if percent is None else {**percent[0].as_dict(), "episodes": percent[1]},
+        "share_of_reachable": None if reached is None else {**reached[0].as_dict(), "episodes": reached[1]},
         "deaths": int(sum(played.death.sum() for played in one.played)),
         "causes": counted(found),
         "failures": [

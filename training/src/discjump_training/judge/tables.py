@@ -48,6 +48,7 @@ def policies(made: Evaluation) -> Table:
     heading = ["policy", "actions"]
     heading += [f"{one.title}, {one.unit}" if one.unit else one.title for one in made.columns]
     heading += ["of the planner's, %"] if made.percent else []
+    heading += ["of the reachable, %"] if made.reachable else []
     heading += ["episodes"] if made.partial else []
     rows = []
     for index, one in enumerate(made.judged):
@@ -56,6 +57,9 @@ def policies(made: Evaluation) -> Table:
         if made.percent:
             percent = made.percent[index]
             cells.append("" if percent is None else f"{cell(percent[0], '', 1)}, {percent[1]} episodes")
+        if made.reachable:
+            reached = made.reachable[index]
+            cells.append("" if reached is None else f"{cell(reached[0], '%', 1)}, {reached[1]} episodes")
         cells += [f"{len(one.episodes)} of {made.conditions.episodes}"] if made.partial else []
         rows.append(cells)
     return Table("Policies", heading, rows)
@@ -126,6 +130,12 @@ def caption(made: Evaluation) -> str:
         f"{changes}, frame_skip {usual} unless another is named, in brackets 95% intervals. "
         f"Time-outs and deaths count as {conditions.time_limit:g} s."
     ]
+    if made.search is not None:
+        within = made.search.reached[:count]
+        words.append(
+            f"Reachable: the {within.sum()} of the course's first {len(within)} episodes in which an "
+            "exhaustive search of open-loop schedules reaches the goal."
+        )
     if made.partial:
         words.append("PARTIAL: it was broken off before every policy had played every episode.")
     if count < ENOUGH_EPISODES:

@@ -10,7 +10,7 @@ from rich.console import Console
 from discjump.envs.tasks import TASKS
 from discjump_training.cli import INTERRUPTED, clean_errors
 from discjump_training.courses import COURSES, HELD_OUT
-from discjump_training.planner.settings import PROPOSALS, Settings
+from discjump_training.planner.settings import OBJECTIVES, PROPOSALS, Settings
 
 #: Figures of a plan, beside `plan.json`.
 FIGURES = "figures.json"
@@ -58,6 +58,13 @@ DEFAULTS = Settings()
     help="Model whose value network judges where sequences end (may be repeated); none: the task's own "
     "objective.  [default: the models of --model]",
 )
+@click.option(
+    "--objective",
+    default=DEFAULTS.objective,
+    show_default=True,
+    type=click.Choice(OBJECTIVES),
+    help="What is wanted where no value network judges: the task's own objective, or the sum of rewards.",
+)
 @click.option("--seed", default=DEFAULTS.seed, show_default=True, help="Of all draws.")
 @click.option(
     "--threads", type=click.IntRange(min=1), help="Of the simulator; changes no bit.  [default: all cores]"
@@ -83,6 +90,7 @@ def plan(
     models: tuple[str, ...],
     guided: float,
     values: tuple[str, ...],
+    objective: str,
     seed: int,
     threads: int | None,
     group: int | None,
@@ -115,6 +123,7 @@ def plan(
             proposal=proposal,
             elites=elites,
             guided=guided,
+            objective=objective,
             seed=seed,
         )
         try:

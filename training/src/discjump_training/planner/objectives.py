@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from discjump_training.planner.flight import miss
 from discjump_training.policy import Floats, Layout, Mask, Observations
 
 Value = Callable[[Observations], Floats]
@@ -92,6 +93,42 @@ class Seconds:
         return np.where(running, -np.minimum(self._time + later, 2.0 * self._limit), self._score)
 
 
+class Flight:
+    """Success, the sooner the better; without it the least miss of the flight that a state leads to.
+
+    Args:
+        layout: of the observations.
+        options: of `discjump/DiscJump-v0`.
+    """
+
+    def __init__(self, layout: Layout, options: Any) -> None:
+        self._layout = layout
+        self._options = options
+
+    def begin(self, count: int) -> None:
+        """`count` sequences begin."""
+        self._score = np.zeros(count)
+
+    def add(self, rewards: Floats, ended: Mask, running: Mask, info: dict[str, Any]) -> None:
+        """A decision was simulated."""
+        if ended.any():
+            limit = self._options.time_limit
+            self._score[ended] = np.where(info["is_success"][ended], -info["time"][ended], -limit - FAR)
+
+    def scores(self, observations: Observations, running: Mask, block: int) -> Floats:
+        """Scores (count,)."""
+
+        def left(some: Observations) -> Floats:
+            return miss(self._layout, some, self._options.armor, self._options.arrival_radius)
+
+        later = blockwise(left, observations, running, block)
+        return np.where(running, -self._options.time_limit - np.minimum(later, FAR), self._score)
+
+
+#: Miss of an episode that ended without success, m.
+FAR = 1_000.0
+
+
 def blockwise(value: Value, observations: Observations, running: Mask, block: int) -> Floats:
     """`value` of each block that has anybody running in it; 0 elsewhere."""
     found = np.zeros(len(observations))
@@ -110,20 +147,44 @@ def to_beacon(layout: Layout, observations: Observations) -> Floats:
     planned episodes of the training course predicts better (1.1 s rms in place of 2.0 s) and makes plans 2%
     slower.
     """
-    distance = layout.read(observations, "beacon_distance")[:, 0]
+    return _run(layout, observations, "beacon")
+
+
+#: Speed of a good skier over long ways, m/s.
+CRUISE = 31.0
+
+
+def _run(layout: Layout, observations: Observations, goal: str) -> Floats:
+    distance = layout.read(observations, f"{goal}_distance")[:, 0]
     closing = layout.read(observations, "closing_speed")[:, 0]
-    above = -layout.read(observations, "beacon_height")[:, 0]
+    above = -layout.read(observations, f"{goal}_height")[:, 0]
     energy = layout.read(observations, "energy")[:, 0]
     # Far away all of it can be used; the nearer, the less.
     use = 1.0 - np.exp(-distance / 60.0)
-    speed = 31.0
     return np.maximum(
-        distance / speed - use * (0.1 * closing + 0.02 * above + 0.015 * energy), distance / 70.0
+        distance / CRUISE - use * (0.1 * closing + 0.02 * above + 0.015 * energy), distance / 70.0
     )
+
+
+def to_stand(layout: Layout, observations: Observations) -> Floats:
+    """Seconds from states of `discjump/Route-v0` to the enemy flag, a guess: as `to_beacon`."""
+    return _run(layout, observations, "goal")
+
+
+def to_capture(layout: Layout, observations: Observations) -> Floats:
+    """Seconds from states of `discjump/FlagRun-v0` to the capture, a guess: to the next stand, and without
+    the flag also from there home.
+    """
+    carrying = layout.read(observations, "carrying")[:, 0] > 0.5
+    home = layout.read(observations, "axis_distance")[:, 0] / CRUISE
+    return _run(layout, observations, "goal") + np.where(carrying, 0.0, home)
 
 
 OBJECTIVES: dict[str, Callable[[Layout, Any], Any]] = {
     "ski": lambda layout, options: Seconds(layout, options.time_limit, to_beacon),
+    "disc-jump": Flight,
+    "route": lambda layout, options: Seconds(layout, options.time_limit, to_stand),
+    "flag-run": lambda layout, options: Seconds(layout, options.time_limit, to_capture),
 }
 """By task's name, made of the layout of the observations and the task's options."""
 

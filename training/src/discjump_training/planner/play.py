@@ -118,7 +118,12 @@ class _Player:
         guide = team.guide(inner)
         proposal = proposals.make(self._settings, self._bins, self._length, self._made.decision_seconds)
         self._rollouts = Rollouts(
-            task.id, self._options, self._settings.candidates, threads, team.objective(task, inner), guide
+            task.id,
+            self._options,
+            self._settings.candidates,
+            threads,
+            team.objective(task, inner, self._settings.objective),
+            guide,
         )
         guided = guide is not None and self._settings.guided > 0
         self._search = Search(

@@ -95,6 +95,7 @@ def describe(planned: Planned) -> str:
     s = planned.settings
     guides = f", guided by {_few(planned.guides)}" if planned.guides and s.guided else ""
     value = f"value of {_few(planned.values)}" if planned.values else "no value network"
+    value += ", rewards" if s.objective == "rewards" and not planned.values else ""
     return f"{s.proposal}, {s.candidates} × {s.iterations} × {s.horizon:g} s{guides}, {value}"
 
 

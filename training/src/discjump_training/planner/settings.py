@@ -6,6 +6,7 @@ from typing import Any
 from discjump_training.errors import TrainingError
 
 PROPOSALS = ("evolve", "cem", "mppi")
+OBJECTIVES = ("task", "rewards")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +44,8 @@ class Settings:
     """difference in score that weighs 1/e (`mppi`), in units of the objective"""
     guided: float = 0.25
     """share of the sequences that a model or script completes while they are simulated; 0 without one"""
+    objective: str = "task"
+    """what is wanted where no value network judges: `task` (its own objective), `rewards` (their sum)"""
     seed: int = 0
     """of all draws"""
 
@@ -78,8 +81,9 @@ class Settings:
                 raise TrainingError(
                     f"{name}: expected a number in {bracket}{least:g}, {most:g}]{unit}, got {value!r}"
                 )
-        if self.proposal not in PROPOSALS:
-            raise TrainingError(f"proposal: expected one of {', '.join(PROPOSALS)}, got {self.proposal!r}")
+        for name, known in (("proposal", PROPOSALS), ("objective", OBJECTIVES)):
+            if (value := getattr(self, name)) not in known:
+                raise TrainingError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
         if self.elites >= self.candidates:
             raise TrainingError(
                 f"elites: expected fewer than the {self.candidates} candidates, got {self.elites}"

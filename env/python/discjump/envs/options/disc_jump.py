@@ -12,9 +12,9 @@ HEIGHTS: Mapping[str, tuple[float, float]] = {
     "medium": (82.0, 206.0),
     "heavy": (60.0, 146.0),
 }
-"""Of each armor, from level ground, on a full tank: 8 m more than jump and jets alone lead the feet to, and
-what the best of all disc jumps reaches, m: searched through the tick of the shot, the tick at which the jets
-are lit and the aim (`discjump_training.bounds`)."""
+"""Of each armor, from level ground, on a full tank, m: 8 m more than jump and jets alone lead the feet to,
+and what the best disc jump reaches whose jets are lit with the jump or after it: searched through the tick of
+the shot, the tick at which the jets are lit and the aim (`discjump_training.bounds`)."""
 
 
 @dataclass(frozen=True, kw_only=True)
