@@ -217,12 +217,12 @@ impl EnvironmentsSetup {
         for stand in stands {
             let home = self.maps.to_local(*stand).is_ok_and(|(_, tile)| tile == IVec2::ZERO);
             if !(home && area.contains(stand.truncate().into())) {
-                refuse!("flags[{k}]: expected places within the area and on the map, got {stand}");
+                refuse!("flags: expected places within the area and on the map, got {stand} on terrain {k}");
             }
         }
         let (apart, radius) = ((stands[0] - stands[1]).length(), self.task.arrival_radius);
         if apart <= 2.0 * radius {
-            refuse!("flags[{k}]: expected more than {} m between them, got {apart}", 2.0 * radius);
+            refuse!("flags: expected more than {} m between them, got {apart} on terrain {k}", 2.0 * radius);
         }
         Ok(())
     }
