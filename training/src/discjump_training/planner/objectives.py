@@ -166,9 +166,18 @@ def _run(layout: Layout, observations: Observations, goal: str) -> Floats:
     )
 
 
+#: What the last of a runner's health is worth, s, and from which share of deadly damage on it is. A disc at the
+#: feet is quick and takes two thirds: who spends the rest dies of the next hard landing, beyond the horizon.
+HEALTH, HURT = 10.0, 0.5
+
+
 def to_stand(layout: Layout, observations: Observations) -> Floats:
-    """Seconds from states of `discjump/Route-v0` to the enemy flag, a guess: as `to_beacon`."""
-    return _run(layout, observations, "goal")
+    """Seconds from states of `discjump/Route-v0` to the enemy flag, a guess: as `to_beacon`, and what damage
+    costs.
+    """
+    hurt = layout.read(observations, "damage")[:, 0] / layout.scales["damage"]
+    danger = np.clip((hurt - HURT) / (1.0 - HURT), 0.0, 1.0)
+    return _run(layout, observations, "goal") + HEALTH * danger
 
 
 def to_capture(layout: Layout, observations: Observations) -> Floats:
@@ -177,7 +186,7 @@ def to_capture(layout: Layout, observations: Observations) -> Floats:
     """
     carrying = layout.read(observations, "carrying")[:, 0] > 0.5
     home = layout.read(observations, "axis_distance")[:, 0] / CRUISE
-    return _run(layout, observations, "goal") + np.where(carrying, 0.0, home)
+    return to_stand(layout, observations) + np.where(carrying, 0.0, home)
 
 
 OBJECTIVES: dict[str, Callable[[Layout, Any], Any]] = {
