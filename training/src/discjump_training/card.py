@@ -102,6 +102,7 @@ def make(
             "success": intervals.proportion(played.success).as_dict(),
             "deaths": int(played.death.sum()),
             "seconds": intervals.mean(played.seconds).as_dict(),
+            "episode_seconds": [round(value, 3) for value in played.seconds.tolist()],
         },
     }
 
