@@ -1,6 +1,8 @@
 """What disc jumps reach: the searches against recurrences written here, the tables of the physics, and the
 environment itself."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from discjump.envs.tasks import DISC_JUMP
 from discjump_training.bounds import jumps, markers, reachable, report
 from discjump_training.bounds.apex import best, search, steps, two_discs
 from discjump_training.bounds.jumps import NEVER, PITCHES, Jumps
-from discjump_training.bounds.tries import SMALL, Copies, Tries
+from discjump_training.bounds.tries import SMALL, Copies, Results, Tries
 from discjump_training.courses import COURSES, Course
 from discjump_training.errors import TrainingError
 from discjump_training.policy import ARMED_BINS
@@ -70,7 +72,7 @@ def test_decisions_of_two_ticks_are_the_environments():
     tried = Jumps.grid(lit=[0, 2], shot=[1], pitch=[float(PITCHES[0])])
     made = jumps.heights("light", tried, ticks=2)
     plane = Terrain.from_heights(np.zeros((257, 257)))
-    env = gymnasium.make_vec(
+    env: Any = gymnasium.make_vec(
         DISC_JUMP.id,
         num_envs=2,
         threads=1,
@@ -124,7 +126,7 @@ def found():
 
 def replayed(course, found, options):
     """Success and time of the schedules, one episode each, in environments of their own."""
-    env = gymnasium.make_vec(
+    env: Any = gymnasium.make_vec(
         DISC_JUMP.id,
         num_envs=len(found),
         threads=1,
@@ -182,13 +184,13 @@ def test_it_is_about_one_course_and_one_physics(found):
 
 
 def test_stages_are_of_the_sizes_that_are_said():
-    tried = []
+    tried: list[Any] = []
     for stage, count in zip(markers.STAGES, (600, 2400, 2400, 3840, 576, 3840), strict=True):
         tries = markers.plan(stage, (3, 9), tried)
         assert len(tries) == count
         rng = np.random.default_rng(0)
         missed = rng.uniform(10, 90, count)
-        tried.append((tries, markers.Results(np.zeros(count, np.bool_), np.full(count, np.nan), missed)))
+        tried.append((tries, Results(np.zeros(count, np.bool_), np.full(count, np.nan), missed)))
     assert len(markers.plan("stand", (5, 5), [])) == 300
 
 
@@ -208,7 +210,7 @@ def test_turns_end_where_they_should():
 
 
 def test_copies_begin_where_the_episode_is():
-    env = gymnasium.make_vec(
+    env: Any = gymnasium.make_vec(
         DISC_JUMP.id, num_envs=2, threads=1, terrain_seeds=[3], marker_height=(60.0, 60.0), **SMALL
     ).unwrapped
     env.reset(seed=[1, 2])

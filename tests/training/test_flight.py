@@ -1,5 +1,7 @@
 """Where a flight leads: the planner's objectives against flights that are played here."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 import pytest
@@ -38,7 +40,7 @@ def test_the_apex_is_that_of_a_flight_in_the_simulator(armor):
 
 
 def of_task(name, count=8, **options):
-    env = gymnasium.make_vec(TASKS[name].id, num_envs=count, threads=1, **{**SMALL, **options}).unwrapped
+    env: Any = gymnasium.make_vec(TASKS[name].id, num_envs=count, threads=1, **{**SMALL, **options}).unwrapped
     observations, _ = env.reset(seed=5)
     return env, Layout.of(env.observation_layout), observations
 

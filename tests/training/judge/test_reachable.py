@@ -28,7 +28,9 @@ def made():
 def test_the_share_is_of_the_reachable(made):
     data = json.loads(json.dumps(results.as_json(made)))
     told = data["policies"][0]["share_of_reachable"]
-    reached = np.array([one.stage is not None for one in reachable.load(COURSE).found[:12]])
+    known = reachable.load(COURSE)
+    assert known is not None
+    reached = np.array([one.stage is not None for one in known.found[:12]])
     success = np.array(data["policies"][0]["members"][0]["success"])
     assert told["episodes"] == reached.sum()
     assert told["value"] == pytest.approx(success[reached].mean())
@@ -41,7 +43,9 @@ def test_the_share_is_of_the_reachable(made):
 
 def test_heights_have_their_bands(made):
     assert sum(one.episodes for one in made.bands) == 12
-    assert "success, % by marker height, m" in tables.bands(made).title
+    table = tables.bands(made)
+    assert table is not None
+    assert "success, % by marker height, m" in table.title
 
 
 def test_where_nobody_searched_nothing_is_said(made):
@@ -57,7 +61,9 @@ def test_what_was_not_reached_does_not_count(made):
     first = search.found[0]
     lost = type(first)(first.episode, None, None, 9.0, 1, first.schedule, first.marker_height)
     fewer = Reachable(search.course, search.course_digest, search.options, (lost, *search.found[1:3]))
-    share, count = reaching.share(made.judged[0], fewer)
+    found = reaching.share(made.judged[0], fewer)
+    assert found is not None
+    share, count = found
     success = made.judged[0].success[0]
     assert count == 2
     assert share.value == success[1:3].mean()
