@@ -12,10 +12,11 @@
     proposals   where action sequences come from
     guides      models and scripts that complete sequences; value networks
     objectives  what is wanted, by task
+    flight      where a flight with jets leads
     settings    how hard and how far
 
 Arrows point down only: command, sweep -> report, play -> store, team, search -> planned, rollouts,
-proposals -> guides, objectives -> settings.
+proposals -> guides, objectives -> flight, settings.
 
 The model is exact: candidates begin at copies of the real states and are simulated with the same bits. What
 is predicted within the horizon happens. A plan is a function of the settings, the course's episode and the

@@ -166,8 +166,8 @@ def _run(layout: Layout, observations: Observations, goal: str) -> Floats:
     )
 
 
-#: What the last of a runner's health is worth, s, and from which share of deadly damage on it is. A disc at the
-#: feet is quick and takes two thirds: who spends the rest dies of the next hard landing, beyond the horizon.
+#: What the last of a runner's health is worth, s, and from which share of deadly damage on it is. A disc at
+#: the feet is quick and takes two thirds: who spends the rest dies of the next hard landing, out of sight.
 HEALTH, HURT = 10.0, 0.5
 
 
