@@ -78,6 +78,7 @@ class PolicyJson(Strict):
     top_speed: EstimateJson
     damage: EstimateJson
     percent_of_planner: PercentJson | None
+    share_of_reachable: None
     deaths: int
     causes: dict[str, int]
     failures: list[FailureJson]
@@ -201,7 +202,7 @@ def test_failures_count_as_60_seconds():
 @pytest.mark.parametrize(
     ("arguments", "message", "code"),
     [
-        (["nobody"], "neither a baseline (random, skier, tacker) nor a model file", 1),
+        (["nobody"], "neither a baseline (random, skier, tacker) nor ppo", 1),
         (["skier", "--episodes", "513"], "has 1 to 512 episodes to offer, not 513", 1),
         (["skier", "--course", "mars"], "no course is named 'mars'; there are ski-train-v1", 1),
         (["skier", "--course", "ski-held-out-v2"], "of ski-held-out there is ski-held-out-v1", 1),

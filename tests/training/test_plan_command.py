@@ -55,7 +55,8 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path, monkeypatch):
         (["--model", "nobody.zip"], "no model file at nobody.zip", 1),
         (["--model", "skier", "--value", "nobody.zip"], "no model file at nobody.zip", 1),
         (["--episodes", 513], "1 to 512 episodes to offer, not 513", 1),
-        (["--course", "nowhere"], "'nowhere' is not one of", 2),
+        (["--course", "nowhere"], "no course is named 'nowhere'", 1),
+        (["--course", "route-held-out-v1"], "is one of the task route, not of ski", 1),
     ],
 )
 def test_mistakes_are_explained(arguments, message, code, tmp_path):

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from discjump.envs.tasks import TASKS
 from discjump_training.cli import INTERRUPTED, clean_errors
-from discjump_training.courses import COURSES, HELD_OUT
+from discjump_training.courses import course_of
 from discjump_training.planner.settings import OBJECTIVES, PROPOSALS, Settings
 
 #: Figures of a plan, beside `plan.json`.
@@ -19,7 +19,9 @@ DEFAULTS = Settings()
 
 @click.command()
 @click.argument("task", type=click.Choice(list(TASKS)))
-@click.option("--course", default=HELD_OUT.name, show_default=True, type=click.Choice(list(COURSES)))
+@click.option(
+    "--course", metavar="NAME", help="Full name, or held-out, validation, train, public.  [default: held-out]"
+)
 @click.option("--episodes", type=click.IntRange(min=1), help="The course's first so many.  [default: all]")
 @click.option(
     "--candidates",
@@ -79,7 +81,7 @@ DEFAULTS = Settings()
 @click.option("--quiet", is_flag=True, help="No progress bar.")
 def plan(
     task: str,
-    course: str,
+    course: str | None,
     episodes: int | None,
     candidates: int,
     horizon: float,
@@ -113,8 +115,9 @@ def plan(
     from discjump_training.planner.store import RESULTS
     from discjump_training.planner.team import NO_VALUE
 
-    folder = out or Path("runs") / f"plan-{task}-{course}"
     with clean_errors():
+        where = course_of(task, course).name
+        folder = out or Path("runs") / f"plan-{task}-{where}"
         settings = Settings(
             candidates=candidates,
             horizon=horizon,
@@ -129,7 +132,7 @@ def plan(
         try:
             planned = run(
                 task,
-                course,
+                where,
                 episodes=episodes,
                 settings=settings,
                 guides=models,
