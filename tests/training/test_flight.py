@@ -75,8 +75,7 @@ def test_without_the_flag_there_are_two_legs_to_go():
     env, layout, seen = of_task("flag-run", count=2)
     there = objectives.to_stand(layout, seen)
     whole = objectives.to_capture(layout, seen)
-    apart = layout.read(seen, "axis_distance")[:, 0]
-    np.testing.assert_allclose(whole - there, apart / 31.0, rtol=1e-6)
+    assert (whole - there > 500.0 / 31.0).all()
     carrying = seen.copy()
     carrying[:, layout.slices["carrying"]] = 1.0
     np.testing.assert_array_equal(
@@ -87,3 +86,22 @@ def test_without_the_flag_there_are_two_legs_to_go():
 
 def test_every_task_has_an_objective():
     assert set(objectives.OBJECTIVES) == set(TASKS)
+
+
+def test_taking_the_flag_is_progress():
+    """Caught: to the guess of FlagRun the way home began where the flag is taken, so plans hovered before it
+    until time was out.
+    """
+    env, layout, seen = of_task("flag-run", count=1)
+    near, taken = seen.copy(), seen.copy()
+    for name, at_the_flag, after in (
+        ("goal_distance", 10.0, 700.0),
+        ("closing_speed", 40.0, -40.0),
+        ("goal_height", 0.0, 60.0),
+        ("energy", 60.0, 0.0),
+        ("carrying", 0.0, 1.0),
+    ):
+        near[:, layout.slices[name]] = at_the_flag / layout.scales[name]
+        taken[:, layout.slices[name]] = after / layout.scales[name]
+    assert objectives.to_capture(layout, taken) < objectives.to_capture(layout, near)
+    env.close()
