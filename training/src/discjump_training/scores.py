@@ -3,8 +3,9 @@
     python -m discjump_training.scores training/results
 
 reads TASK/evaluation.json (of `discjump evaluate`) and, where they are there, TASK/plan.json (of `discjump
-plan`) and TASK/runs/SEED/run.json (of `discjump train`), and writes scores.json, which the cards of the tasks
-show, and scores.md.
+plan`) and TASK/runs/SEED/run.json (of `discjump train`), adds what an exhaustive search reaches where there
+was one (`discjump_training.bounds`), and writes scores.json, which the cards of the tasks show, and
+scores.md.
 """
 
 import json
@@ -16,7 +17,9 @@ import numpy as np
 
 from discjump.envs.tasks import TASKS, Task
 from discjump_training import intervals
+from discjump_training.bounds import reachable
 from discjump_training.cli import clean_errors
+from discjump_training.courses import course_of
 from discjump_training.errors import TrainingError
 from discjump_training.files import write_atomically
 from discjump_training.intervals import Estimate
@@ -77,6 +80,9 @@ def rows(task: Task, folder: Path) -> list[list[str]]:
             seconds = intervals.mean(np.array([one["seconds"] for one in plan["episodes"]]))
             count = len(plan["episodes"])
             found.append(["planner", f"{count}", cell(success, "%", 1), cell(seconds, "s", 2), "100"])
+        if (searched := reachable.load(course_of(task.name, None))) is not None:
+            share = intervals.proportion(searched.reached)
+            found.append(["exhaustive search", f"{len(searched.reached)}", cell(share, "%", 1), "", ""])
     except (KeyError, TypeError, AttributeError) as error:
         raise TrainingError(
             f"{folder / task.name}: no results of this version: {type(error).__name__}: {error}"
