@@ -33,7 +33,7 @@ class Policy(Protocol):
         """How actions are chosen, in a few words: `greedy`, `sampled`, `scripted` ..."""
 
     def __call__(self, observations: Observations) -> Actions:
-        """Actions (n, 5), int64, for observations (n, observation_size), float32."""
+        """Actions (n, 5), with discs (n, 7), int64, for observations (n, observation_size), float32."""
 
     def reset(self, done: Mask) -> None:
         """Forget what is remembered of the environments in `done` (n,): their next observation begins an

@@ -49,7 +49,7 @@ def read(path: Path) -> dict[str, Any] | None:
 
 
 def rows(task: Task, folder: Path) -> list[list[str]]:
-    """Policy, success, time, percent of the planner's: a row each, worst first.
+    """Policy, success, time, percent of the planner's: a row each, baselines first.
 
     Raises:
         TrainingError: a file is damaged.

@@ -76,12 +76,13 @@ def _scene(options: TaskOptions) -> list[str]:
 def _episode(task: Task, options: TaskOptions) -> list[str]:
     grounds = "capture" if options.extras()["capture"] else options.GROUNDS
     success = words.END[grounds].format(radius=options.arrival_radius)
+    blast = " or an explosion" if "blast" in SCENES[SCENE[options.GROUNDS]].models else ""
     return [
         f"- **Start**: {words.START[options.GROUNDS]}.",
         f"- **Decision**: every {options.frame_skip} ticks of {options.tick_ms} ms; keys are held in "
         f"between.",
         f"- **Success**: {success}. Tested on the segment of every tick; it terminates the episode.",
-        "- **Death**, by a landing or an explosion, terminates it too, and wins over success in its tick.",
+        f"- **Death**, by a landing{blast}, terminates it too, and wins over success in its tick.",
         f"- **Truncated** after {options.time_limit:g} s, on the exact tick, also inside a decision.",
         f"- **Score**: {words.SCORE[task.score]}.",
     ]

@@ -16,8 +16,9 @@ and when an episode ends
 | is_success, death, timeout | | how it ended: exactly one of them is true |
 | return | | sum of rewards |
 | length | decisions | |
-| top_speed, mean_speed | m/s | |
-| path | m | length of the path |
+| top_speed | m/s | |
+| mean_speed | m/s | horizontal |
+| path | m | horizontal length of the path |
 | damage | damage | at the end; light armor dies at 0.66, medium at 1.0, heavy at 1.32 |
 | start_distance | m | distance to the goal at the start |
 

@@ -44,6 +44,7 @@ class Replaced:
     def __init__(self, checked: Checked, batch: TaskBatch, autoreset: str) -> None:
         self.checked, self.batch, self.autoreset = checked, batch, autoreset
         self.returns = np.zeros(batch.num_envs)
+        self._sums = np.zeros(batch.num_envs)
         self.native: Native | None = None
         self.finals: NDArray[Any] = np.zeros(0)
         self._over = np.zeros(batch.num_envs, np.bool_)

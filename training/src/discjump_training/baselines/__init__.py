@@ -5,7 +5,7 @@ steering    from a direction to keys and a turn
 script      the scripted skier, and the same tacking
 jumper      the scripted disc jumper
 runner      the scripted route runner
-tuned.toml  their constants, found by `python -m discjump_training.tune` on the training course
+tuned.toml  their constants, found on the training courses; it says how
 """
 
 import tomllib

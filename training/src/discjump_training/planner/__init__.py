@@ -1,4 +1,4 @@
-"""A sampling planner whose model is the simulator itself: the upper bound of the tables of scores.
+"""A sampling planner whose model is the simulator itself: it shows what is possible at least.
 
     command     `discjump plan`
     sweep       many settings, one table (`python -m discjump_training.planner.sweep`)

@@ -123,7 +123,7 @@ def load(paths: list[str], env: Any | None = None) -> tuple[Networks, dict[str, 
         ModelError: if one cannot be had, or they do not fit each other or the environments.
     """
     loaded = [(path, model.load(model_path(path))) for path in paths]
-    options = [in_task(model.about(model_path(path)).get("environment", {})) for path in paths]
+    options = [_options(model.about(model_path(path))) for path in paths]
     for (path, ppo), theirs in zip(loaded, options, strict=True):
         if not isinstance(ppo.action_space, _multi_discrete()):
             raise ModelError(f"{path}: expected actions in a MultiDiscrete space, got {ppo.action_space}")
@@ -132,6 +132,10 @@ def load(paths: list[str], env: Any | None = None) -> tuple[Networks, dict[str, 
         if theirs != options[0]:
             raise ModelError(f"{path} was trained with options {theirs}, but {paths[0]} with {options[0]}")
     return Networks([ppo for _, ppo in loaded]), options[0]
+
+
+def _options(about: dict[str, Any]) -> dict[str, Any]:
+    return in_task(about.get("environment", {}), about.get("task", "ski"))
 
 
 def script(task: Task, name: str) -> dict[str, Any]:

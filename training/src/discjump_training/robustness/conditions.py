@@ -55,7 +55,7 @@ def steeper(terrain: Terrain) -> Terrain:
 
 
 def rougher(terrain: Terrain) -> Terrain:
-    """The same hills, with the relief of a quarter of the map on them, at a quarter of its size in all three
+    """The same hills, with the map itself on them once more, at a quarter of its size in all three
     directions: as steep, and four times as frequent.
     """
     heights = _heights(terrain)

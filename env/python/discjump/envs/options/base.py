@@ -18,7 +18,7 @@ death; and how many metres of distance
 a metre of height counts that the player's flight will lack, for goals in the air."""
 
 FAN_BEARINGS = (0.0, 30.0, -30.0)
-"""Default bearings of the fan, degrees, 0 ahead, positive left: chosen by what learns best (README, Results).
+"""Default bearings of the fan, degrees, 0 ahead, positive left: the fewest that lose nothing.
 
 The fan is the rise of the terrain over range: its height there, over the ground below the player, divided by
 the range (dimensionless)."""
