@@ -63,10 +63,11 @@ fn outcome(envs: &Envs) -> Option<Outcome> {
     envs.ended(0).map(|(outcome, _)| outcome)
 }
 
-/// Seconds from a rest at a walk, whose first ticks are spent on getting there.
-fn walked(ticks: usize, metres: f64) {
+/// Seconds at a walk, of which some are spent on getting there: from a rest up to half a second, after turning
+/// back at full speed twice that.
+fn walked(ticks: usize, metres: f64, spent: f64) {
     let seconds = ticks as f64 * TICK;
-    let (least, most) = (metres / WALK, metres / WALK + 0.5);
+    let (least, most) = (metres / WALK, metres / WALK + spent);
     assert!((least..most).contains(&seconds), "{metres} m in {seconds} s, expected {least} to {most}");
 }
 
@@ -75,7 +76,7 @@ fn a_route_ends_at_the_enemy_flag() {
     let mut envs = western(|| setup(false, HALF + 30.0));
     assert_eq!(envs.batch.goals()[0], [HALF, 0.0, 0.0]);
     let ticks = until(&mut envs, AHEAD, |envs| outcome(envs).is_some());
-    walked(ticks, 2.0 * HALF - RADIUS);
+    walked(ticks, 2.0 * HALF - RADIUS, 0.5);
     let end = outcome(&envs).unwrap();
     assert!(end.success && end.carried && end.taken == 1, "{end:?}");
     assert!((end.start_distance - 2.0 * HALF).abs() < 1e-3, "{end:?}");
@@ -85,10 +86,10 @@ fn a_route_ends_at_the_enemy_flag() {
 fn a_capture_is_there_and_back() {
     let mut envs = western(|| setup(true, HALF + 30.0));
     let ticks = until(&mut envs, AHEAD, |envs| envs.batch.goals()[0][0] < 0.0);
-    walked(ticks, 2.0 * HALF - RADIUS);
+    walked(ticks, 2.0 * HALF - RADIUS, 0.5);
     assert!(outcome(&envs).is_none(), "the flag is taken, not captured");
     let home = until(&mut envs, BACK, |envs| outcome(envs).is_some());
-    walked(home, 2.0 * HALF - 2.0 * RADIUS);
+    walked(home, 2.0 * HALF - 2.0 * RADIUS, 1.0);
     let end = outcome(&envs).unwrap();
     assert!(end.success && end.taken == 1, "{end:?}");
     // Its reward: all the way there and back is a potential.

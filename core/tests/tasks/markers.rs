@@ -83,7 +83,7 @@ fn a_marker_is_reached_where_the_way_of_the_feet_passes_within_its_radius() {
             }
         }
         assert!(over.iter().all(|&over| over), "{fidelity}: all are over after 250 ticks");
-        assert!(reached >= 4 && missed >= 4, "{fidelity}: {reached} reached, {missed} missed");
+        assert!(reached >= 2 && missed >= 2, "{fidelity}: {reached} reached, {missed} missed");
     }
 }
 
