@@ -3,6 +3,7 @@
 import hashlib
 import json
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -85,3 +86,18 @@ def test_what_cannot_be_exported_is_refused(run, tmp_path):
         export.Actor(ppo.policy)
     result = CliRunner().invoke(command, [str(tmp_path / "none.zip")])
     assert (result.exit_code, "no model file" in result.output) == (1, True), result.output
+
+
+def test_no_path_of_the_machine_is_in_it(run, tmp_path):
+    """Caught: the exporter noted at each node the lines of source it came from, with the paths of the
+    machine: a fourth of the file.
+    """
+    from discjump_training import shipped
+
+    ppo = model.load(run / model.BEST)
+    export.to_onnx(ppo, tmp_path / "policy.onnx", {})
+    source = Path(export.__file__).parent
+    for path in (tmp_path / "policy.onnx", *shipped.FOLDER.glob("*/policy.*")):
+        content = path.read_bytes()
+        for part in (str(source), source.as_posix(), "site-packages", ".py"):
+            assert part.encode() not in content, (path, part)

@@ -91,5 +91,9 @@ def to_onnx(ppo: PPO, path: Path, about: dict[str, Any]) -> None:
     except ImportError as error:
         raise TrainingError(f"export to ONNX needs {error.name}: pip install onnx onnxscript") from error
     assert program is not None
+    # The exporter notes at each node which lines of source it came from: paths of this machine.
+    for part in (program.model.graph, *program.model.graph, *program.model.functions.values()):
+        part.metadata_props.clear()
+        part.doc_string = None
     program.model.metadata_props[METADATA] = json.dumps(about)
     write_atomically(path, program.model_proto.SerializeToString())
