@@ -17,7 +17,7 @@
     judge       any policy on fixed episodes: scores, failures, pairs, leaderboard, the HTML report
     picture     the picture of an evaluation; curves draws learning curves
     evaluate    a model in the environments that it is judged in
-    intervals   bootstrap and exact intervals
+    intervals   bootstrap and exact intervals; markdown has tables and cells of them
     model       model files
     files       written whole or not at all
     baselines   random keys, scripted skiers, a disc jumper, a route runner

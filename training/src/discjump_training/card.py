@@ -6,10 +6,11 @@ from stable_baselines3 import PPO
 
 from discjump.envs.tasks import TASKS
 from discjump_training import intervals, model
-from discjump_training.courses import COURSES
+from discjump_training.courses import course_of
 from discjump_training.episodes import Stage
 from discjump_training.errors import ModelError
 from discjump_training.recipe import at_full
+from discjump_training.runs import seconds_of
 
 #: Fields of the card that the table of its Markdown shows, and their headings.
 ROWS = {
@@ -58,7 +59,7 @@ def make(
         )
     # Models that are older than the table of tasks are ski's.
     task = TASKS[about.get("task", "ski")]
-    course = COURSES[f"{task.name}-held-out-v1"]
+    course = course_of(task.name, None)
     stage = Stage(course, episodes, at_full(about["environment"]), threads)
     try:
         model.check_spaces(ppo, "the policy", stage.env)
@@ -83,9 +84,7 @@ def make(
         "command": f"discjump train {task.name} --recipe recipe.toml --seed {about['seed']}",
         "seed": about["seed"],
         "steps": about["steps"],
-        "training_seconds": sum(run["seconds"][part] for part in ("environment", "policy", "update"))
-        if "seconds" in run
-        else None,
+        "training_seconds": seconds_of(run) if "seconds" in run else None,
         "commit": about.get("commit"),
         "versions": run.get("versions", {"discjump": about.get("discjump")}),
         "digest": digest,

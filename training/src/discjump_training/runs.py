@@ -16,6 +16,7 @@ import json
 import os
 import platform
 import subprocess
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
 from pathlib import Path
@@ -58,6 +59,15 @@ class Point:
         if score == "seconds":
             return -self.validation_seconds, self.validation_success
         return self.validation_success, -self.validation_seconds
+
+
+#: What the time of a training goes into: fields of `Clock`.
+PARTS = ("environment", "policy", "update")
+
+
+def seconds_of(run: dict[str, Any], parts: Iterable[str] = PARTS) -> float:
+    """What a run spent on these, s, from its `run.json`."""
+    return float(sum(run["seconds"][part] for part in parts))
 
 
 @dataclass

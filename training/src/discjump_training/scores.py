@@ -23,14 +23,11 @@ from discjump_training.courses import course_of
 from discjump_training.errors import TrainingError
 from discjump_training.files import write_atomically
 from discjump_training.intervals import Estimate
-from discjump_training.judge.tables import cell
+from discjump_training.markdown import cell, table
+from discjump_training.runs import PARTS, seconds_of
 
 #: Commands that the figures come from; `N` is each training seed.
 COMMAND = "discjump evaluate ppo=runs/{name}-N,... --task {name} --planner training/results/{name}/plan.json"
-
-
-#: What the time of a training goes into.
-PARTS = ("environment", "policy", "update")
 
 
 def read(path: Path) -> dict[str, Any] | None:
@@ -104,7 +101,7 @@ def training(folder: Path) -> list[list[str]]:
             continue
         try:
             minutes = [one["steps"] / one["steps_per_second"] / 60 for one in runs]
-            spent = {part: sum(one["seconds"][part] for one in runs) for part in PARTS}
+            spent = {part: sum(seconds_of(one, [part]) for one in runs) for part in PARTS}
             found.append(
                 [
                     name,
@@ -131,12 +128,6 @@ def heading(task: Task) -> list[str]:
     return ["policy", "episodes", "success, %", f"time to {task.goal}, s", "of the planner's, %"]
 
 
-def table(titles: list[str], cells: list[list[str]]) -> str:
-    """As Markdown."""
-    lines = [titles, ["---"] * len(titles), *cells]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
-
-
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
 def main(folder: Path) -> None:
@@ -146,7 +137,7 @@ def main(folder: Path) -> None:
         text = []
         for name, task in TASKS.items():
             if cells := rows(task, folder):
-                course = f"{name}-held-out-v1"
+                course = course_of(name, None).name
                 command = COMMAND.format(name=name)
                 gathered[name] = {
                     "course": course,

@@ -144,7 +144,7 @@ def judge(study: Study, variant: str, folder: Path, threads: int | None) -> Judg
     stage.close()
     if not told:
         return None
-    spent = {part: sum(run["seconds"][part] for run in told) for part in ("environment", "policy", "update")}
+    spent = {part: sum(runs.seconds_of(run, [part]) for run in told) for part in runs.PARTS}
     whole = sum(spent.values())
     return Judged(
         np.stack(seconds),
@@ -184,7 +184,7 @@ def table(study: Study, judged: dict[str, Judged]) -> tuple[dict[str, Any], str]
             "shares": one.shares,
             "commands": one.commands,
         }
-        shares = ", ".join(f"{one.shares[part]:.0%}" for part in ("environment", "policy", "update"))
+        shares = ", ".join(f"{one.shares[part]:.0%}" for part in runs.PARTS)
         lines.append(
             f"| {name} | {len(each)} | {one.success.mean():.1%} | {mean.value:.2f} [{mean.low:.2f}, "
             f"{mean.high:.2f}] | "

@@ -8,6 +8,8 @@ import numpy as np
 from discjump_training import intervals
 from discjump_training.bounds.markers import STAGES, Found
 from discjump_training.courses.table import row as course_row
+from discjump_training.intervals import Estimate
+from discjump_training.markdown import cell, table
 from discjump_training.policy import Floats, Mask
 
 TITLES = {
@@ -21,27 +23,24 @@ TITLES = {
 def apex_tables(rows: Sequence[dict[str, Any]]) -> str:
     """Apexes as Markdown."""
     heads = ["armor", "ticks per decision", *(f"{title}, m" for title in TITLES.values()), "best schedule"]
-    lines = [heads, ["---"] * len(heads)]
+    lines = []
     for row in rows:
         cells = [f"{row[key]['apex']:.1f}" for key in TITLES]
         lines.append([row["armor"], str(row["ticks"]), *cells, words(row["disc"]["schedule"])])
-    text = "# Apex of the feet over the start, from rest on a plane, m\n\n" + _markdown(lines)
+    text = "# Apex of the feet over the start, from rest on a plane, m\n\n" + table(heads, lines)
     pitches = [str(pitch) for pitch in sorted({int(one) for row in rows for one in row["by_pitch"]})]
-    lines = [
-        ["armor", "ticks per decision", *(f"{pitch}°" for pitch in pitches)],
-        ["---"] * (2 + len(pitches)),
-    ]
+    heads, lines = ["armor", "ticks per decision", *(f"{pitch}°" for pitch in pitches)], []
     for row in rows:
         told = {int(pitch): apex for pitch, apex in row["by_pitch"].items()}
         cells = [f"{told[int(p)]:.1f}" if int(p) in told else "" for p in pitches]
         lines.append([row["armor"], str(row["ticks"]), *cells])
-    text += "\nThe best by pitch of the view:\n\n" + _markdown(lines)
+    text += "\nThe best by pitch of the view:\n\n" + table(heads, lines)
     shots = sorted({int(shot) for row in rows for shot in row["by_shot"]})
-    lines = [["armor", "ticks per decision", *map(str, shots)], ["---"] * (2 + len(shots))]
+    heads, lines = ["armor", "ticks per decision", *map(str, shots)], []
     for row in rows:
         cells = [f"{row['by_shot'][str(s)]:.1f}" if str(s) in row["by_shot"] else "" for s in shots]
         lines.append([row["armor"], str(row["ticks"]), *cells])
-    text += "\nThe best by ticks between the jump and the shot:\n\n" + _markdown(lines)
+    text += "\nThe best by ticks between the jump and the shot:\n\n" + table(heads, lines)
     text += "\nWhat decisions of two ticks cost, m of the best disc jump: "
     return text + ", ".join(f"{armor} {cost:.1f}" for armor, cost in costs(rows).items()) + ".\n"
 
@@ -73,7 +72,7 @@ def marker_figures(found: Sequence[Found], jumper: Mask, jumper_seconds: Floats)
     either = reached & jumper
     band = course_row("disc-jump").band
     assert band is not None
-    which = np.clip(np.digitize(heights, band.edges[1:-1]), 0, len(band.edges) - 2)
+    which = band.which(heights)
     bands = [
         {
             "low": band.edges[index],
@@ -108,32 +107,20 @@ def marker_tables(told: dict[str, Any], course: str) -> str:
     """The same as Markdown."""
     bands = told["bands"]
     heads = ["", "all", *(f"{one['low']:g} to {one['high']:g} m" for one in bands)]
-    lines = [heads, ["---"] * len(heads)]
-    lines.append(["episodes", str(told["episodes"]), *(str(one["episodes"]) for one in bands)])
+    lines = [["episodes", str(told["episodes"]), *(str(one["episodes"]) for one in bands)]]
     for key, title in (("search", "exhaustive search"), ("jumper", "scripted jumper")):
-        lines.append([title, *(percent(one[key]) for one in (told, *bands))])
-    text = f"# Markers reached, %, by height over the start\n\n{_markdown(lines)}\n"
+        lines.append([title, *(cell(Estimate(**one[key]), "%", 1) for one in (told, *bands))])
+    text = f"# Markers reached, %, by height over the start\n\n{table(heads, lines)}\n"
     missed = ", ".join(map(str, told["not_reached"])) or "none"
-    of_reachable = told["jumper_of_reachable"]
+    share = told["jumper_of_reachable"]
+    of_reachable = "" if share is None else cell(Estimate(**share), "%", 1)
     both = told["seconds_where_both"]
     text += (
         f"{course}: its first {told['episodes']} episodes; in brackets exact 95% intervals. Of the markers "
-        f"that the search reaches the jumper reaches {percent(of_reachable)} %. Where both do, the search "
+        f"that the search reaches the jumper reaches {of_reachable} %. Where both do, the search "
         f"needs {both['search']:.2f} s and the jumper {both['jumper']:.2f} s on average (the search looks "
         "for the soonest only within the first stage that succeeds). Not reached by the search, episodes: "
         f"{missed}; of these by the jumper: {', '.join(map(str, told['jumper_only'])) or 'none'}.\n\n"
     )
     stages = ", ".join(f"{stage} {count}" for stage, count in told["stages"].items())
     return text + f"Stages that succeeded: {stages}. Schedules played: {told['schedules']:,}.\n"
-
-
-def percent(share: dict[str, float] | None) -> str:
-    """A share with its interval."""
-    if share is None:
-        return ""
-    value, low, high = (f"{100 * share[key]:.1f}" for key in ("value", "low", "high"))
-    return f"{value} [{low}, {high}]"
-
-
-def _markdown(lines: Sequence[Sequence[str]]) -> str:
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)

@@ -5,9 +5,13 @@ A new task needs a row here, and nothing else: courses, their seeds and the test
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from discjump.terrains import TRAINING_SEEDS
 from discjump_training.courses.course import Course
 from discjump_training.errors import TrainingError
+from discjump_training.policy import Floats
 
 #: First environment seed of each kind of course; a task's lie `SLOT` times its slot above. All are above the
 #: last seed of the last training run.
@@ -40,6 +44,11 @@ class Band:
     key: str
     title: str
     edges: tuple[float, ...]
+
+    def which(self, values: Floats) -> NDArray[np.int64]:
+        """Index of the band of each value."""
+        found: NDArray[np.int64] = np.clip(np.digitize(values, self.edges[1:-1]), 0, len(self.edges) - 2)
+        return found
 
 
 @dataclass(frozen=True)

@@ -106,7 +106,7 @@ def bands(one: Judged, task: str) -> list[InBand]:
     if band is None or not (hasattr(first, band.key) or band.key in first.extra):
         return []
     value = getattr(first, band.key) if hasattr(first, band.key) else first.extra[band.key]
-    which = np.clip(np.digitize(value, band.edges[1:-1]), 0, len(band.edges) - 2)
+    which = band.which(value)
     found = []
     for index, (low, high) in enumerate(zip(band.edges[:-1], band.edges[1:], strict=True)):
         own = which == index

@@ -6,10 +6,10 @@ from rich.console import Console
 from rich.table import Table as RichTable
 
 from discjump_training.courses import row
-from discjump_training.intervals import Estimate
 from discjump_training.judge.compare import Comparison
 from discjump_training.judge.evaluation import ENOUGH_EPISODES, Evaluation
 from discjump_training.judge.failures import CAUSES, MEANING, counted
+from discjump_training.markdown import cell, table
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,7 @@ class Table:
 
     def markdown(self) -> str:
         """As Markdown, without the title."""
-        lines = [self.heading, ["---"] * len(self.heading), *self.rows]
-        return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+        return table(self.heading, self.rows)
 
     def rich(self) -> RichTable:
         """For the terminal."""
@@ -163,17 +162,3 @@ def show(console: Console, made: Evaluation) -> None:
     if any(made.failures):
         console.print(causes(made).rich())
     console.print(caption(made))
-
-
-def cell(estimate: Estimate, unit: str, digits: int, *, sign: bool = False) -> str:
-    """A value with its interval; shares in percent.
-
-    >>> cell(Estimate(0.5, 0.25, 0.75), "%", 1)
-    '50.0 [25.0, 75.0]'
-    """
-    factor = 100.0 if unit == "%" else 1.0
-    form = f"{'+' if sign else ''}.{digits}f"
-    value, low, high = (
-        format(number * factor, form) for number in (estimate.value, estimate.low, estimate.high)
-    )
-    return f"{value} [{low}, {high}]"

@@ -1,7 +1,7 @@
 """What a planner wants: a score for each simulated sequence, more is better.
 
 An objective adds up what happens within the horizon and judges the state at its end, where the episode goes
-on. `OBJECTIVES` has one by task; a task that is not in it is planned for by its rewards. With a value network
+on. `OBJECTIVES` has one for each task. With a value network
 it is the discounted rewards and what the network expects after them, whatever the task.
 """
 
@@ -204,4 +204,4 @@ OBJECTIVES: dict[str, Callable[[Layout, Any], Any]] = {
 
 def make(task: str, layout: Layout, options: Any) -> Any:
     """The task's objective without a value network."""
-    return OBJECTIVES[task](layout, options) if task in OBJECTIVES else Rewards()
+    return OBJECTIVES[task](layout, options)

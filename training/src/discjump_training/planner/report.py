@@ -8,6 +8,7 @@ from rich.table import Table
 
 from discjump_training import intervals
 from discjump_training.intervals import Estimate
+from discjump_training.markdown import cell
 from discjump_training.planner.planned import Planned
 
 Figures = dict[str, float | dict[str, float]]
@@ -51,23 +52,13 @@ def row(name: str, told: Figures) -> list[str]:
     """A row of the table."""
     return [
         name,
-        interval(told["success"], 100.0, 1),
-        interval(told["seconds"], 1.0, 2),
+        cell(Estimate(**told["success"]), "%", 1),  # type: ignore[arg-type]
+        cell(Estimate(**told["seconds"]), "s", 2),  # type: ignore[arg-type]
         f"{told['simulated_per_decision']:,.0f}",
         f"{told['simulated_seconds'] / 3600:,.1f}",  # type: ignore[operator]
         f"{told['wall_seconds']:,.1f}",
         f"{told['cpu_seconds']:,.1f}",
     ]
-
-
-def interval(value: float | dict[str, float], factor: float, digits: int) -> str:
-    """An estimate of `figures` in words."""
-    assert isinstance(value, dict)
-    estimate = Estimate(**value)
-    middle, low, high = (
-        format(factor * number, f".{digits}f") for number in (estimate.value, estimate.low, estimate.high)
-    )
-    return f"{middle} [{low}, {high}]"
 
 
 def caption(planned: Planned) -> str:
@@ -101,9 +92,3 @@ def describe(planned: Planned) -> str:
 
 def _few(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{len(names)} models"
-
-
-def markdown_table(heading: Sequence[str], body: Sequence[Sequence[str]]) -> str:
-    """A table as Markdown."""
-    lines = [list(heading), ["---"] * len(heading), *map(list, body)]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)

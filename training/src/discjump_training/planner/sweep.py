@@ -22,7 +22,9 @@ from discjump_training.cli import clean_errors
 from discjump_training.courses import COURSES
 from discjump_training.errors import TrainingError
 from discjump_training.files import write_atomically
+from discjump_training.intervals import Estimate
 from discjump_training.judge import Conditions, entrants, judge
+from discjump_training.markdown import cell, table
 from discjump_training.planner import report
 from discjump_training.planner.play import plan
 from discjump_training.planner.settings import Settings
@@ -135,11 +137,11 @@ def _write(
     first = sweep.references[0]
     heading = ["name", *report.HEADING, f"time / {first}'s"]
     body = [
-        [row["name"], *report.row(row["what"], row), report.interval(row["ratio"], 1.0, 3)] for row in rows
+        [row["name"], *report.row(row["what"], row), cell(Estimate(**row["ratio"]), "", 3)] for row in rows
     ]
     references = ", ".join(f"{name} {seconds.mean():.2f} s" for name, seconds in played.items())
     text = (
-        report.markdown_table(heading, body)
+        table(heading, body)
         + f"\n{sweep.course}: its first {sweep.episodes} episodes; on the same: {references}. In brackets "
         f"95% intervals over episodes. Wall time is that of a shared machine.\n\n    {command}\n"
     )

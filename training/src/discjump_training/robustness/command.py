@@ -43,10 +43,10 @@ def main(policies: tuple[str, ...], task: str, episodes: int, out: Path, threads
             played[condition.name] = judge(who, conditions, Keep(Pieces(work / str(index), resume=True)))
         words = ["python", "-m", "discjump_training.robustness", *policies, "--task", task]
         words += ["--episodes", str(episodes), "--out", str(out)]
-        text = table.markdown(course, episodes, played, shlex.join(words))
-        figures = json.dumps(table.as_json(course, episodes, played), indent=1) + "\n"
+        told = table.as_json(course, episodes, played)
+        text = table.markdown(told, shlex.join(words))
         out.mkdir(parents=True, exist_ok=True)
-        write_atomically(out / f"{task}.json", figures.encode())
+        write_atomically(out / f"{task}.json", (json.dumps(told, indent=1) + "\n").encode())
         write_atomically(out / f"{task}.md", text.encode())
         shutil.rmtree(work)
         click.echo(text, nl=False)

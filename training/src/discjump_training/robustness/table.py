@@ -5,8 +5,9 @@ from typing import Any
 
 from discjump.envs.tasks import TASKS
 from discjump_training.courses import Course
+from discjump_training.intervals import Estimate
 from discjump_training.judge import Judged, statistics
-from discjump_training.judge.tables import cell
+from discjump_training.markdown import cell, table
 
 
 def as_json(course: Course, episodes: int, played: Mapping[str, list[Judged]]) -> dict[str, Any]:
@@ -31,25 +32,21 @@ def as_json(course: Course, episodes: int, played: Mapping[str, list[Judged]]) -
     }
 
 
-def markdown(course: Course, episodes: int, played: Mapping[str, list[Judged]], command: str) -> str:
-    """A row per condition, two columns per policy."""
-    first = next(iter(played.values()))
+def markdown(told: dict[str, Any], command: str) -> str:
+    """A row per condition, two columns per policy, of what `as_json` says."""
+    conditions = told["conditions"]
     heading = ["condition"]
-    for one in first:
-        heading += [f"{one.name}: success, %", f"time to {TASKS[course.task].goal}, s"]
-    lines = [heading, ["---"] * len(heading)]
-    for name, judged in played.items():
-        row = [name]
-        for one in judged:
-            row.append(cell(statistics.share(one.success, one.terrain), "%", 1))
-            row.append(
-                cell(statistics.estimate(statistics.mean, [one.table("seconds")], one.terrain), "s", 2)
-            )
-        lines.append(row)
-    table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    for name in next(iter(conditions.values())):
+        heading += [f"{name}: success, %", f"time to {TASKS[told['task']].goal}, s"]
+    body = []
+    for condition, played in conditions.items():
+        row = [condition]
+        for one in played.values():
+            row += [cell(Estimate(**one["success"]), "%", 1), cell(Estimate(**one["seconds"]), "s", 2)]
+        body.append(row)
     what = (
-        f"The first {episodes} episodes of {course.name}; each row changes one thing. Failures count as the "
-        "time limit. Brackets: 95% intervals over episodes, and over training seeds where there are several. "
-        "With another armor, speeds, tanks and weights are others than the policy ever met."
+        f"The first {told['episodes']} episodes of {told['course']}; each row changes one thing. Failures "
+        "count as the time limit. Brackets: 95% intervals over episodes, and over training seeds where there "
+        "are several. With another armor, speeds, tanks and weights are others than the policy ever met."
     )
-    return f"{table}\n{what}\n\n    {command}\n"
+    return f"{table(heading, body)}\n{what}\n\n    {command}\n"

@@ -1,10 +1,8 @@
 """Where policies are trained: the physics of a training, its recipe and its folder."""
 
 import json
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from discjump_training import runs
 from discjump_training.errors import TrainingError
@@ -102,8 +100,3 @@ def train(home: Home, plan: Plan, out: Path, seed: int) -> Path:
     if not ended and not learn(recipe, seed, where, resume=begun, quiet=True).finished:
         raise KeyboardInterrupt
     return where
-
-
-def seconds(run: dict[str, Any], parts: Iterable[str] = ("environment", "policy", "update")) -> float:
-    """What a run spent on these, s, from its `run.json`."""
-    return float(sum(run["seconds"][part] for part in parts))

@@ -16,14 +16,13 @@ import numpy as np
 from discjump._results import machine
 from discjump.bench.clock import spread
 from discjump_training import train as training
+from discjump_training.runs import PARTS, seconds_of
 from discjump_training.tradeoff import homes as places
 from discjump_training.tradeoff.grid import Plan
-from discjump_training.tradeoff.homes import Home, homes, seconds, train
+from discjump_training.tradeoff.homes import Home, homes, train
 from discjump_training.tradeoff.section import Done, Made, Panel, Speeds
 from discjump_training.tradeoff.speed import digits
 from discjump_training.tradeoff.store import Store, build, code
-
-PARTS = ("environment", "policy", "update")
 
 
 class Training:
@@ -88,7 +87,7 @@ def timed(home: Home, plan: Plan) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         where = train(home, short, Path(folder), 0)
         run = json.loads((where / "run.json").read_text())
-    return {"steps": run["steps"], **{part: seconds(run, [part]) for part in PARTS}}
+    return {"steps": run["steps"], **{part: seconds_of(run, [part]) for part in PARTS}}
 
 
 def _row(home: Home, rounds: list[dict[str, float]], plan: Plan) -> dict[str, Any]:

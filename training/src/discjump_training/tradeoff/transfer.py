@@ -23,8 +23,9 @@ from discjump_training import courses, episodes, evaluate, intervals, model
 from discjump_training.courses import HELD_OUT
 from discjump_training.evaluate import on_stage
 from discjump_training.intervals import Estimate
+from discjump_training.runs import seconds_of
 from discjump_training.tradeoff.grid import Config, Plan
-from discjump_training.tradeoff.homes import TASK, Home, homes, seconds, train
+from discjump_training.tradeoff.homes import TASK, Home, homes, train
 from discjump_training.tradeoff.outcomes import at_most
 from discjump_training.tradeoff.section import Done, Made, Panel, Speeds, points
 from discjump_training.tradeoff.store import Missing, Store, build, code
@@ -177,7 +178,7 @@ def row(home: Home, runs: list[dict[str, Any]], task: list[dict[str, Any]]) -> d
         **{key: value.as_dict() for key, value in estimates.items()},
         "failures": int((success < 0.5).sum()),
         "seconds_by_seed": in_task.mean(axis=1).tolist(),
-        "trained_seconds": float(np.median([seconds(one["run"]) for one in runs])),
+        "trained_seconds": float(np.median([seconds_of(one["run"]) for one in runs])),
         "environment_share": float(np.median([one["run"]["environment_share"] for one in runs])),
         "largest_cost": at_most(cost_seconds.as_dict()),
     }

@@ -5,7 +5,8 @@ from typing import Any
 from discjump.envs.tasks import TASKS
 from discjump_training.courses import COURSES
 from discjump_training.judge.leaderboard import Leaderboard
-from discjump_training.judge.tables import Table, cell
+from discjump_training.judge.tables import Table
+from discjump_training.markdown import cell
 
 NOTE = (
     "Every score was simulated again from the replay's actions. Episodes without a replay that counts are "
