@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from discjump_training.baselines.script import tuned
+from discjump_training.baselines.sight import angle
 from discjump_training.baselines.steering import press, wrap
-from discjump_training.policy import Actions, Floats, Layout, Mask, Observations, encode_armed
+from discjump_training.policy import LOWEST_PITCH, Actions, Floats, Layout, Mask, Observations, encode_armed
 
-DOWN, AHEAD = -1.5358897, 0.0
+AHEAD = 0.0
 
 
 @dataclass(frozen=True)
@@ -90,9 +91,8 @@ class Jumper:
             (np.hypot(way[:, 0], way[:, 1]) > p.near) & (self._since > p.climb),
             ~below,
         )
-        angle = np.arctan2(-way[:, 1], way[:, 0])
-        forward, strafe, turn = press(wrap(angle), 0.4)
+        forward, strafe, turn = press(wrap(angle(way)), 0.4)
         forward, strafe = np.where(press_on, forward, 0.0), np.where(press_on, strafe, 0.0)
         jet = flying
-        pitch = np.where(self._since <= p.wait, DOWN, AHEAD)
+        pitch = np.where(self._since <= p.wait, LOWEST_PITCH, AHEAD)
         return encode_armed(forward, strafe, jump, jet, turn, fire, pitch, self._turn_rate)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from discjump_training.baselines.script import SkierParameters, tuned
-from discjump_training.baselines.sight import Sight
+from discjump_training.baselines.sight import Sight, angle
 from discjump_training.baselines.steering import press
 from discjump_training.policy import Actions, Floats, Layout, Mask, Observations, encode_armed
 
@@ -73,8 +73,7 @@ class Runner:
         p, layout = self.parameters, self._layout
         see = Sight.of(layout, observations, self._ranges)
         self._remember(see.distance.size)
-        axis_forward, axis_right = layout.read(observations, "axis").T
-        axis = np.arctan2(-axis_right, axis_forward)
+        axis = angle(layout.read(observations, "axis"))
         # The waypoint, seen from the player: the stand less some way along the axis.
         ahead = see.distance * np.cos(see.bearing) - p.waypoint * np.cos(axis)
         left = see.distance * np.sin(see.bearing) - p.waypoint * np.sin(axis)
@@ -92,15 +91,10 @@ class Runner:
         aside = self._stuck > PATIENCE + p.aside
         bearing = bearing + np.where(back, np.pi, np.where(aside, 0.5 * np.pi, 0.0))
         near = (near & ~aside) | back
-        climbing = see.rise(p.look) > p.climb_rise
-        slow = (see.closing < p.jet_speed) & (see.height < p.ceiling)
-        wanted = (climbing | slow | aside) & (see.climb < p.sink) & ~near
-        enough = np.where(self._burning, see.energy > p.jet_stop, see.energy >= p.jet_start)
-        jet = self._burning = wanted & enough
+        jet = self._burning = p.wants_jets(see, anyway=aside) & ~near & p.has_energy(see, self._burning)
 
-        lean = -np.clip(p.drift_gain * see.drift, -p.drift_limit, p.drift_limit)
         fast = (see.distance < p.brake) & (see.closing > 14.0)
-        angle = np.where(fast, bearing + np.pi, bearing + lean)
-        forward, strafe, turn = press(angle, p.turn_seconds)
+        pressed = np.where(fast, bearing + np.pi, bearing + p.lean(see))
+        forward, strafe, turn = press(pressed, p.turn_seconds)
         none = np.zeros(jet.size)
         return encode_armed(forward, strafe, ~near, jet, turn, none.astype(np.bool_), none, self._turn_rate)

@@ -47,6 +47,21 @@ class SkierParameters:
     sink: float = tuned(-40.0, 20.0)
     """upward speed above which jets are not used, m/s"""
 
+    def wants_jets(self, see: Sight, anyway: Mask | bool = False) -> Mask:
+        """Who climbs, is slow, or wants them `anyway`, and does not rise by himself."""
+        climbing = see.rise(self.look) > self.climb_rise
+        slow = (see.closing < self.jet_speed) & (see.height < self.ceiling)
+        wanted: Mask = (climbing | slow | anyway) & (see.climb < self.sink)
+        return wanted
+
+    def has_energy(self, see: Sight, burning: Mask) -> Mask:
+        """Whose energy goes on feeding burning jets, or is enough to light them."""
+        return np.where(burning, see.energy > self.jet_stop, see.energy >= self.jet_start)
+
+    def lean(self, see: Sight) -> Floats:
+        """How far the pressed direction leans against the drift, rad."""
+        return -np.clip(self.drift_gain * see.drift, -self.drift_limit, self.drift_limit)
+
 
 @dataclass(frozen=True)
 class TackerParameters(SkierParameters):
@@ -107,16 +122,12 @@ class Script:
 
     def _jets(self, see: Sight) -> Mask:
         p = self.parameters
-        climbing = see.rise(p.look) > p.climb_rise
-        slow = (see.closing < p.jet_speed) & (see.height < p.ceiling)
-        wanted = (climbing | slow) & (see.climb < p.sink)
-        enough = np.where(self._burning, see.energy > p.jet_stop, see.energy >= p.jet_start)
-        self._burning = wanted & enough
+        self._burning = p.wants_jets(see) & p.has_energy(see, self._burning)
         return self._burning
 
     def _off_course(self, see: Sight, jet: Mask) -> Floats:
         p = self.parameters
-        lean = -np.clip(p.drift_gain * see.drift, -p.drift_limit, p.drift_limit)
+        lean = p.lean(see)
         if not isinstance(p, TackerParameters):
             return lean
         # Press against the drift; within the band keep the side, at the very start take the right.

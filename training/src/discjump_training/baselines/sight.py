@@ -12,6 +12,12 @@ from discjump_training.errors import TrainingError
 from discjump_training.policy import Floats, Layout, Observations
 
 
+def angle(way: Floats) -> Floats:
+    """Angle of ways (forward, right), (n, 2), to (n,)."""
+    found: Floats = np.arctan2(-way[:, 1], way[:, 0])
+    return found
+
+
 @dataclass(frozen=True)
 class Sight:
     """Physical readings, each of shape (n,) unless said otherwise.
@@ -48,11 +54,10 @@ class Sight:
             return layout.read(observations, name)[:, 0]
 
         goal = "beacon" if "beacon_direction" in layout.slices else "goal"
-        forward, right = layout.read(observations, f"{goal}_direction").T
         fan = layout.read(observations, "fan") if "fan" in layout.slices else np.zeros((len(observations), 0))
         height = number("height")
         return cls(
-            bearing=np.arctan2(-right, forward),
+            bearing=angle(layout.read(observations, f"{goal}_direction")),
             distance=number(f"{goal}_distance"),
             closing=number("closing_speed"),
             drift=-number("lateral_speed"),

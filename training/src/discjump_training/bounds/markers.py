@@ -37,10 +37,10 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-from numpy.typing import NDArray
 from tqdm import tqdm
 
 from discjump.envs.tasks import DISC_JUMP
+from discjump_training.baselines.sight import angle
 from discjump_training.bounds.tries import KEYS, NONE, SMALL, Copies, Results, Times, Tries
 from discjump_training.courses import Course
 from discjump_training.policy import ARMED_BINS, Layout
@@ -105,7 +105,7 @@ def search(
     layout = Layout.of(inner.observation_layout)
     heights = (inner.goals() - inner.state()["position"])[:, 2]
     snapshots = [inner.snapshot(row) for row in range(len(seeds))]
-    turns = [turning(one, inner.options) for one in bearings(layout, observations)]
+    turns = [turning(one, inner.options) for one in angle(layout.read(observations, "goal_direction"))]
     waits = rest(inner, turns)
     env.close()
     copies = Copies(made)
@@ -199,13 +199,6 @@ def _nearest(one: tuple[Tries, Results], count: int) -> list[tuple[int, float]]:
     return [(int(index), float(one[1].miss[index])) for index in order]
 
 
-def bearings(layout: Layout, observations: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Bearing of the marker from the view, (n,), rad, positive to the left."""
-    ahead, right = layout.read(observations, "goal_direction").T
-    found: NDArray[np.float64] = np.arctan2(-right, ahead)
-    return found
-
-
 def turning(bearing: float, options: Any) -> Times:
     """Bins of the turn for each facing, (facings, decisions).
 
@@ -218,8 +211,8 @@ def turning(bearing: float, options: Any) -> Times:
     eighth = np.pi / 4
     wanted = [bearing - eighth * np.rint(bearing / eighth), bearing, bearing - np.copysign(np.pi, bearing)]
     rows = []
-    for angle in wanted:
-        left = int(np.rint(angle / step))
+    for wish in wanted:
+        left = int(np.rint(wish / step))
         row = []
         while left:
             row.append(int(np.clip(left, -most, most)))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from discjump.envs.tasks import DISC_JUMP
+from discjump_training.episodes import place
 from discjump_training.policy import ARMED_BINS, Floats, Layout, Mask
 
 Times = NDArray[np.int64]
@@ -57,10 +58,10 @@ class Tries:
         columns: dict[str, Any] = dict.fromkeys(names, 0)
         columns |= {"walk": NONE, "push": NONE, "steer": NONE}
         rows = list(product(*values.values()))
-        for place, key in enumerate(values):
+        for column, key in enumerate(values):
             parts = key.split(",")
             for nth, name in enumerate(parts):
-                columns[name] = [row[place][nth] if len(parts) > 1 else row[place] for row in rows]
+                columns[name] = [row[column][nth] if len(parts) > 1 else row[column] for row in rows]
         filled = {name: np.broadcast_to(np.asarray(columns[name]), len(rows)).copy() for name in names}
         return cls(**filled)
 
@@ -171,10 +172,7 @@ class Copies:
         batch = self._batches[nth]
         at = self._at[nth]
         if at is None:
-            # The environment checks its arguments anew at each call.
-            restore = batch._task.batch.restore
-            for index in range(batch.num_envs):
-                restore(self._snapshot, index)
+            place(batch, self._snapshot, range(batch.num_envs))
             self._at[nth] = batch.snapshot()
         else:
             batch.restore(at)

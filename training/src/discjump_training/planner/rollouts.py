@@ -6,6 +6,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from discjump_training.episodes import place
 from discjump_training.planner.guides import Guide
 from discjump_training.planner.proposals import Draft
 from discjump_training.policy import Floats, Observations
@@ -50,11 +51,8 @@ class Rollouts:
         slots = 1 << (len(snapshots) - 1).bit_length()
         self._batch = self._batches.get(slots) or self._made(slots)
         self._episodes = len(snapshots)
-        # The environment checks its arguments anew at each call: three quarters of the time.
-        restore = self._batch._task.batch.restore
         for slot, snapshot in enumerate(snapshots):
-            for index in range(slot * self._candidates, (slot + 1) * self._candidates):
-                restore(snapshot, index)
+            place(self._batch, snapshot, range(slot * self._candidates, (slot + 1) * self._candidates))
         self._at = self._batch.snapshot()
         self._first = np.repeat(observations, self._candidates, axis=0)
         self._moved = False
