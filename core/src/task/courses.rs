@@ -83,7 +83,7 @@ const TRIES: u32 = 64;
 /// A beacon stands at a distance uniform in the level's; where no draw of 64 fits the area, the course runs
 /// along its diagonal. A marker floats over a start that in half of the episodes is on the ground, else up to
 /// `start_height` above it: at a height over the ground there uniform in the level's distances, up to `aside` off. In
-/// a mission either team's, the start is the own flag stand, with the view to the enemy's, or a place within the
+/// a mission either team's, the start is at rest up to `aside` from the own flag stand, or a place within the
 /// area at a distance uniform in the level's from the enemy flag.
 ///
 /// # Errors
@@ -104,7 +104,10 @@ pub fn draw_course(
     let Pitch { area, stands } = pitches[map];
     let draw = |purpose, counter, low, high| uniform(seed, episode, purpose, counter, low, high);
     let pi = core::f64::consts::PI;
-    let mut yaw = draw(Purpose::Velocity, 0, -pi, pi);
+    // As many in every part of the disc as its area is large.
+    let aside =
+        |purpose| direction(draw(purpose, 0, -pi, pi)) * (level.aside * draw(purpose, 1, 0.0, 1.0).sqrt());
+    let yaw = draw(Purpose::Velocity, 0, -pi, pi);
     let heading = draw(Purpose::Velocity, 1, -pi, pi);
     let speed = draw(Purpose::Velocity, 2, -level.start_speed, level.start_speed).max(0.0);
     let mut velocity = direction(heading) * speed;
@@ -121,11 +124,8 @@ pub fn draw_course(
             let (low, high) = (DVec2::from(area.min), DVec2::from(area.max));
             let place =
                 DVec2::new(draw(Purpose::Start, 0, low.x, high.x), draw(Purpose::Start, 1, low.y, high.y));
-            // As many in every part of the disc as its area is large.
-            let off = direction(draw(Purpose::Goal, 0, -pi, pi))
-                * (level.aside * draw(Purpose::Goal, 1, 0.0, 1.0).sqrt());
             start = request.start.or(request.goal).unwrap_or(place);
-            goal = request.goal.unwrap_or(start + off);
+            goal = request.goal.unwrap_or(start + aside(Purpose::Goal));
         }
         Grounds::Stands => {
             team = index(seed, episode, Purpose::Team, 0, 2);
@@ -135,10 +135,8 @@ pub fn draw_course(
             if let Some(place) = request.start {
                 start = place;
             } else if level.from_stand {
-                start = own.truncate();
+                start = own.truncate() + aside(Purpose::Start);
                 height = Some(own.z);
-                let ahead = (enemy - own).truncate();
-                yaw = libm::atan2(-ahead.x, ahead.y);
                 velocity = DVec2::ZERO;
             } else {
                 let towards = CourseRequest { goal: Some(goal), ..CourseRequest::default() };

@@ -31,7 +31,7 @@ pub struct Level {
     pub start_speed: f64,
     /// Largest height of the start over the ground, m.
     pub start_height: f64,
-    /// Largest distance of a marker on the map, m.
+    /// Largest distance on the map of a marker from the start, or of a start from the own flag stand, m.
     pub aside: f64,
     /// Whether the start is the player's own flag stand.
     pub from_stand: bool,

@@ -85,7 +85,7 @@ START = {
     "at rest "
     "in half, else with a horizontal velocity. The marker floats over the ground at the start, "
     "off to a side",
-    "stands": "either team; the own flag stand, looking at the enemy's, or a place in the "
+    "stands": "either team; at rest by the own flag stand, looking anywhere, or a place in the "
     "mission area, on the "
     "ground or on what stands there",
 }

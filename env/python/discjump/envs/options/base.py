@@ -40,9 +40,9 @@ class Level(NamedTuple):
     start_height: float = 0.0
     """Largest height of the start over the ground, m."""
     aside: float = 0.0
-    """Largest distance of a marker on the map, m."""
+    """Largest distance on the map of a marker from the start, or of a start from the own flag stand, m."""
     from_stand: bool = False
-    """The start is the player's own flag stand."""
+    """The start is at the player's own flag stand."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,7 @@ class RouteOptions(TaskOptions):
     """Whether the flag must be brought home."""
     LEVELS: ClassVar[Mapping[str, Level]] = {
         "easy": Level((80.0, 250.0), 0.0),
-        "standard": Level((80.0, 800.0), 0.0, from_stand=True),
+        "standard": Level((80.0, 800.0), 0.0, aside=2.0, from_stand=True),
         "hard": Level((250.0, 800.0), 25.0),
     }
     """What is drawn at each difficulty: distances are those of the start from the enemy flag."""
