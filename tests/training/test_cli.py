@@ -17,10 +17,10 @@ def ski(*arguments: object):
 
 
 def test_show_recipe_prints_a_recipe_with_help_and_trains_nothing(tmp_path):
-    result = ski("--show-recipe", "--recipe", "ski_no_fan", "--steps", 5, "--out", tmp_path / "run")
+    result = ski("--show-recipe", "--recipe", "ski", "--steps", 5, "--out", tmp_path / "run")
     assert result.exit_code == 0
     recipe = Recipe.parse(tomllib.loads(result.output), "output")
-    assert (recipe.ppo.steps, recipe.environment.kwargs()["fan_ranges"]) == (5, [])
+    assert (recipe.ppo.steps, recipe.ppo.joint) == (5, True)
     assert "# weight of the entropy bonus" in result.output
     assert not (tmp_path / "run").exists()
 

@@ -1,6 +1,6 @@
 //! The observation: numbers that every task has, and what its scene and its goal add.
 
-use super::landing::{HORIZON, landing};
+use super::landing::{HORIZON, Jets, landing};
 use super::rows::{Columns, Rows};
 use super::seen_ground;
 use crate::armor::{GRAVITY, JUMP_GRACE_MS};
@@ -57,6 +57,7 @@ pub struct Observation {
     bearings: Vec<[f64; 2]>,
     ranges: Vec<f64>,
     landing: bool,
+    jet_landings: bool,
 }
 
 /// Scales: speeds of a good skier, drop of a typical hill, way to a typical beacon.
@@ -71,6 +72,15 @@ const NEAR: f64 = 30.0;
 const ALOFT: f64 = 40.0;
 /// What is close: the reach of an explosion, and somewhat more, m.
 const CLOSE: f64 = 10.0;
+
+/// Names of what is seen of landings: falling, and under each of `Jets::ways`.
+const LANDINGS: [[&str; 5]; 5] = [
+    ["landing_time", "landing_normal", "landing_impact", "landing_slope", "landing_rise"],
+    ["burst_time", "burst_normal", "burst_impact", "burst_slope", "burst_rise"],
+    ["burn_time", "burn_normal", "burn_impact", "burn_slope", "burn_rise"],
+    ["left_time", "left_normal", "left_impact", "left_slope", "left_rise"],
+    ["right_time", "right_normal", "right_impact", "right_slope", "right_rise"],
+];
 
 impl Observation {
     /// An observation with a fan of terrain at every bearing (degrees, 0 ahead, positive to the left)
@@ -101,7 +111,19 @@ impl Observation {
                 [libm::cos(angle), -libm::sin(angle)]
             })
             .collect();
-        Ok(Self { bearings, ranges: ranges.to_vec(), landing })
+        Ok(Self { bearings, ranges: ranges.to_vec(), landing, jet_landings: false })
+    }
+
+    /// With the landings under jets, or without them: after a burst of half a second up, after burning all the
+    /// energy, and after bursts to the left and to the right.
+    #[must_use]
+    pub fn with_jet_landings(self, jet_landings: bool) -> Self {
+        Self { jet_landings, ..self }
+    }
+
+    /// Which of [`LANDINGS`] are seen.
+    fn landings(&self) -> core::ops::Range<usize> {
+        usize::from(!self.landing)..if self.jet_landings { LANDINGS.len() } else { 1 }
     }
 
     /// The layout of a row.
@@ -137,12 +159,12 @@ impl Observation {
         if S::Damage::<f32>::MODELED {
             add("damage", 1, "damage", max_damage);
         }
-        if self.landing {
-            add("landing_time", 1, "s", HORIZON);
-            add("landing_normal", 2, "", 1.0);
-            add("landing_impact", 1, "m/s", SPEED);
-            add("landing_slope", 1, "", 1.0);
-            add("landing_rise", 1, "m", HEIGHT);
+        for [time, normal, impact, slope, rise] in &LANDINGS[self.landings()] {
+            add(time, 1, "s", HORIZON);
+            add(normal, 2, "", 1.0);
+            add(impact, 1, "m/s", SPEED);
+            add(slope, 1, "", 1.0);
+            add(rise, 1, "m", HEIGHT);
         }
         if self.samples() > 0 {
             add("fan", self.samples(), "", 1.0);
@@ -237,11 +259,13 @@ impl Observation {
         if S::Damage::<R>::MODELED {
             row.push(p.damage.get(one), one / R::splat(rules.max_damage));
         }
-        if self.landing {
-            let there = landing(p, &ground, R::lit(GRAVITY), surface, lowest);
+        let [up, all, left, right] = Jets::ways(p, rules, speed);
+        for jets in &[Jets::none(), up, all, left, right][self.landings()] {
+            let there = landing(p, &ground, R::lit(GRAVITY), jets, surface, lowest);
             let [gx, gy] = there.slope;
             let up = one / (gx * gx + gy * gy + one).sqrt();
-            let along = (gx * v.x + gy * v.y) / speed.max(one);
+            let [vx, vy] = there.velocity;
+            let along = (gx * vx + gy * vy) / (vx * vx + vy * vy).sqrt().max(one);
             let (forward, right) = turned(-gx * up, -gy * up, sin, cos);
             row.push(there.time, R::lit(1.0 / HORIZON));
             row.push(forward, one);

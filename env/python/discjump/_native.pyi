@@ -139,6 +139,7 @@ class TaskBatch:
         fan_bearings: Sequence[float],
         fan_ranges: Sequence[float],
         landing: bool,
+        jet_landings: bool,
         autoreset: str,
         threads: int | None,
         lanes: int | None,

@@ -58,7 +58,7 @@ impl TaskBatch {
     #[new]
     #[pyo3(signature = (terrains, num_envs, *, grounds, fidelity, armor, energy_pack, physics, tick_ms, frame_skip,
         actions, turn_rate, time_limit, arrival_radius, levels, capture, ammo, flags, reward, fan_bearings,
-        fan_ranges, landing, autoreset, threads, lanes))]
+        fan_ranges, landing, jet_landings, autoreset, threads, lanes))]
     #[expect(
         clippy::too_many_arguments,
         reason = "keyword arguments that the package fills from its options"
@@ -86,6 +86,7 @@ impl TaskBatch {
         fan_bearings: Vec<f64>,
         fan_ranges: Vec<f64>,
         landing: bool,
+        jet_landings: bool,
         autoreset: &str,
         threads: Option<usize>,
         lanes: Option<usize>,
@@ -125,7 +126,9 @@ impl TaskBatch {
                 levels: levels.into_iter().map(Level::from).collect(),
             },
             actions: action_kind(actions)?,
-            observation: Observation::new(&fan_bearings, &fan_ranges, landing).map_err(refused)?,
+            observation: Observation::new(&fan_bearings, &fan_ranges, landing)
+                .map_err(refused)?
+                .with_jet_landings(jet_landings),
             autoreset,
             threads,
             lanes,

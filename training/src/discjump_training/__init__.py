@@ -4,6 +4,7 @@
     recipe      what a training run does, typed; recipes/ holds those that ship
     recipe_file recipes as TOML
     train       PPO from top to bottom: learning, checkpoints, resuming
+    joint       a policy that chooses all keys at once
     export      a policy as ONNX, card says what it is (`discjump export`)
     shipped     the policies that come with the package, as they were exported
     runs        the folder of a run

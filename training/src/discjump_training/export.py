@@ -2,9 +2,10 @@
 
 The exported graph takes observations (n, size) float32, as the environment of the card's options gives them,
 and has two outputs: `action`, the likeliest one, as `PPO.predict(..., deterministic=True)` returns it; and
-`logits` (n, sum of the bins) float32 to draw from, bin after bin of each action, or `mean` (n, actions)
-float32 before it is clipped, where actions are numbers. The file's metadata `discjump_training` holds what
-the model file knows about itself (task, options of the environment, seed, steps, recipe), as JSON.
+`logits` (n, sum of the bins) float32 to draw from, bin after bin of each action (of a joint policy first
+the 36 choices of keys, see `joint.JointKeys.decode`), or `mean` (n, actions) float32 before it is clipped,
+where actions are numbers. The file's metadata `discjump_training` holds what the model file knows about
+itself (task, options of the environment, seed, steps, recipe), as JSON.
 """
 
 import json
@@ -14,11 +15,13 @@ from typing import Any, cast
 import torch
 from gymnasium import spaces
 from stable_baselines3 import PPO
+from stable_baselines3.common.distributions import MultiCategoricalDistribution
 from stable_baselines3.common.policies import ActorCriticPolicy
 from torch import Tensor, nn
 
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.files import write_atomically
+from discjump_training.joint import likeliest
 
 OPSET = 18
 #: Entry of the file's metadata.
@@ -46,8 +49,8 @@ class Actor(nn.Module):
             )
         self.hidden = policy.mlp_extractor.policy_net
         self.head = cast(nn.Linear, policy.action_net)
-        self.bins = (
-            [int(count) for count in action.nvec] if isinstance(action, spaces.MultiDiscrete) else None
+        self.choices = (
+            policy.action_dist if isinstance(policy.action_dist, MultiCategoricalDistribution) else None
         )
         if isinstance(action, spaces.Box):
             self.register_buffer("low", torch.as_tensor(action.low))
@@ -56,16 +59,15 @@ class Actor(nn.Module):
     @property
     def outputs(self) -> tuple[str, str]:
         """Names of the outputs."""
-        return ("action", "mean" if self.bins is None else "logits")
+        return ("action", "mean" if self.choices is None else "logits")
 
     def forward(self, observation: Tensor) -> tuple[Tensor, Tensor]:
         """(action, logits) or (action, mean)."""
         said = self.head(self.hidden(observation))
-        if self.bins is None:
+        if self.choices is None:
             low, high = cast(Tensor, self.low), cast(Tensor, self.high)
             return torch.minimum(torch.maximum(said, low), high), said
-        parts = torch.split(said, self.bins, dim=1)
-        return torch.stack([part.argmax(dim=1) for part in parts], dim=1), said
+        return likeliest(self.choices, said), said
 
 
 def to_onnx(ppo: PPO, path: Path, about: dict[str, Any]) -> None:

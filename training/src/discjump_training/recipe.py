@@ -84,6 +84,9 @@ class PPO(Section):
         [64, 64], description="widths of the hidden layers of policy and value network"
     )
     activation: Literal["tanh", "relu"] = Field("tanh", description="activation of the hidden layers")
+    joint: bool = Field(
+        False, description="forward, strafe, jump and jet are one choice of 36 in place of four choices"
+    )
 
 
 class Watch(Section):
@@ -134,6 +137,12 @@ class Recipe(Section):
         course = _course(self.task, "watch.evaluate_course", self.watch.evaluate_course)
         if self.watch.evaluate_episodes > course.episodes:
             raise ValueError(f"watch.evaluate_episodes: {course.name} has {course.episodes} episodes")
+        return self
+
+    @model_validator(mode="after")
+    def _keys_are_bins(self) -> Self:
+        if self.ppo.joint and self.environment.kwargs()["actions"] != "multi_discrete":
+            raise ValueError('ppo.joint: needs environment.actions = "multi_discrete"')
         return self
 
     @model_validator(mode="after")

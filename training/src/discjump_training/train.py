@@ -34,6 +34,7 @@ from discjump_training import episodes, model, runs
 from discjump_training.courses import COURSES, run_seed
 from discjump_training.errors import RecipeError, TrainingError
 from discjump_training.files import write_atomically
+from discjump_training.joint import JointPolicy
 from discjump_training.recipe import Recipe
 from discjump_training.runs import Point, Progress
 
@@ -147,7 +148,7 @@ def make_model(recipe: Recipe, env: TimedVecEnv, seed: int) -> PPO:
     """PPO with fresh weights."""
     ppo = recipe.ppo
     return PPO(
-        "MlpPolicy",
+        JointPolicy if ppo.joint else "MlpPolicy",
         env,
         learning_rate=schedule(recipe),
         n_steps=recipe.rollout.n_steps,

@@ -17,6 +17,7 @@ from discjump.envs.tasks import Task
 from discjump_training import baselines, model
 from discjump_training.errors import ModelError, TrainingError
 from discjump_training.evaluate import in_task, model_path
+from discjump_training.joint import likeliest
 from discjump_training.policy import Floats, Layout, Observations, Policy
 
 
@@ -72,8 +73,7 @@ class Networks:
         # policy.get_distribution would build and check a distribution for each component: half of the time.
         features = policy.extract_features(observations, policy.pi_features_extractor)
         logits = policy.action_net(policy.mlp_extractor.forward_actor(features))
-        columns = [part.argmax(dim=1) for part in logits.split(policy.action_dist.action_dims, dim=1)]
-        chosen: NDArray[np.int8] = torch.stack(columns, dim=1).to(torch.int8).numpy()
+        chosen: NDArray[np.int8] = likeliest(policy.action_dist, logits).to(torch.int8).numpy()
         return chosen
 
 

@@ -133,6 +133,9 @@ class TaskOptions:
 
     landing: bool = True
     """Observe features of the ballistic landing."""
+    jet_landings: bool = False
+    """Observe features of the landings that jets lead to: after a burst of half a second up, after burning
+    all the energy, and after bursts to the left and to the right."""
 
     def __post_init__(self) -> None:
         """Check and normalise every field."""
@@ -161,6 +164,7 @@ class TaskOptions:
         put(self, "fan_bearings", _fan("fan_bearings", self.fan_bearings, -180, 180, "degrees"))
         put(self, "fan_ranges", _fan("fan_ranges", self.fan_ranges, 1, 2000, "m"))
         put(self, "landing", _check.flag("landing", self.landing))
+        put(self, "jet_landings", _check.flag("jet_landings", self.jet_landings))
 
     @classmethod
     def from_keywords(cls, keywords: Mapping[str, Any]) -> Self:
@@ -246,6 +250,7 @@ class TaskOptions:
             fan_bearings=list(self.fan_bearings),
             fan_ranges=list(self.fan_ranges),
             landing=self.landing,
+            jet_landings=self.jet_landings,
             autoreset=autoreset,
             threads=threads,
             lanes=lanes,
