@@ -105,6 +105,53 @@ def test_landing(seen):
     assert np.mean(agree) > 0.85
 
 
+#: Jets of a light: thrust, m/s^2; its largest sideways share; energy used in a second less what comes back.
+THRUST, SIDEWAYS, DRAIN = 236.0 / 9.0, 0.8, 25.0 - 8.0
+
+
+@pytest.mark.parametrize("way", ["burst", "burn", "left", "right"])
+def test_landings_under_jets(way):
+    """Where jets lead, against a march in steps of a millisecond under section 4.2's thrust."""
+    terrain = discjump.Terrain.raindance(3)
+    envs = SkiVectorEnv(256, terrains=[terrain], jet_landings=True, fan_bearings=[], threads=1)
+    envs.reset(seed=0)
+    rng = np.random.default_rng(0)
+    for _ in range(12):
+        actions = rng.integers(0, [3, 3, 2, 2, 7], (256, 5))
+        actions[:, 2:4] = 1
+        observations, *_ = envs.step(actions)
+    names = {f.name: observations[:, f.slice] * f.scale for f in envs.observation_layout}
+    state = envs.state()
+    agree = []
+    for k in range(len(state)):
+        place, velocity = state["position"][k], state["velocity"][k].astype(float)
+        speed = np.hypot(*velocity[:2])
+        left = np.array([-velocity[1], velocity[0]]) / max(speed, 1.0)
+        seconds = min(0.5, state["energy"][k] / DRAIN) if way != "burn" else state["energy"][k] / DRAIN
+        if way in ("left", "right"):
+            side = left if way == "left" else -left
+            thrust = THRUST * np.array([*(SIDEWAYS * side), 1.0 - SIDEWAYS])
+        else:
+            thrust = np.array([0.0, 0.0, THRUST])
+        time = np.arange(0.0, 3.0, 0.001)
+        pull = (time < seconds)[:, None] * thrust - np.array([0.0, 0.0, 20.0])
+        moves = velocity + np.cumsum(pull, axis=0) * 0.001
+        path = place + np.cumsum(moves, axis=0) * 0.001
+        under = np.flatnonzero(path[:, 2] < terrain.height(path[:, :2]))
+        at = under[0] if len(under) else -1
+        normal = terrain.normal(path[[at], :2])[0]
+        expected = {
+            "time": time[at] if len(under) else 3.0,
+            "impact": max(-moves[at] @ normal, 0.0) if len(under) else 0.0,
+            "rise": terrain.height(path[[at], :2])[0] - place[2],
+            "slope": -(normal[:2] @ moves[at, :2]) / normal[2] / max(np.hypot(*moves[at, :2]), 1.0),
+        }
+        off = {name: abs(names[f"{way}_{name}"][k, 0] - value) for name, value in expected.items()}
+        agree.append([off["time"] < 0.05, off["impact"] < 1.5, off["rise"] < 1.5, off["slope"] < 0.1])
+    # Looks 0.15 s apart may step over a crest, and between two of them the ground is not straight.
+    assert (np.mean(agree, axis=0) > 0.85).all(), np.mean(agree, axis=0)
+
+
 def test_over_nothing_an_agent_sees_the_lowest_height():
     """Beyond a void map's rim an agent sees level ground at the map's lowest height.
 

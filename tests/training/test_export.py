@@ -14,6 +14,7 @@ from discjump_training import card, export, model, train
 from discjump_training.courses import HELD_OUT
 from discjump_training.errors import ModelError
 from discjump_training.export_command import export as command
+from discjump_training.policy import BINS
 from discjump_training.recipe import Recipe
 
 from .conftest import TINY
@@ -23,10 +24,12 @@ pytest.importorskip("onnxscript")
 runtime = pytest.importorskip("onnxruntime")
 
 
-@pytest.fixture(scope="module", params=["multi_discrete", "box"])
+@pytest.fixture(scope="module", params=[("multi_discrete", True), ("multi_discrete", False), ("box", False)])
 def run(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("export") / "run"
-    recipe = Recipe.load("ski", (*TINY, f'environment.actions="{request.param}"'))
+    actions, joint = request.param
+    changes = (f'environment.actions="{actions}"', f"ppo.joint={str(joint).lower()}")
+    recipe = Recipe.load("ski", (*TINY, *changes))
     train.train(recipe, 4, folder, quiet=True)
     return folder
 
@@ -50,9 +53,11 @@ def test_what_is_exported_is_the_policy(run, tmp_path):
         said, _ = ppo.predict(seen, deterministic=True)
         if isinstance(ppo.action_space, spaces.MultiDiscrete):
             np.testing.assert_array_equal(actions, said)
-            assert raw.shape == (rows, ppo.action_space.nvec.sum())
-            parts = np.split(raw, np.cumsum(ppo.action_space.nvec)[:-1], axis=1)
-            np.testing.assert_array_equal(actions, np.stack([part.argmax(1) for part in parts], axis=1))
+            bins = [36, 7] if Recipe.load(run / "recipe.toml").ppo.joint else ppo.action_space.nvec
+            assert raw.shape == (rows, sum(bins))
+            choices = [part.argmax(1) for part in np.split(raw, np.cumsum(bins)[:-1], axis=1)]
+            keys = np.unravel_index(choices[0], BINS[:4]) if len(bins) == 2 else choices[:4]
+            np.testing.assert_array_equal(actions, np.stack([*keys, choices[-1]], axis=1))
         else:
             np.testing.assert_allclose(actions, said, atol=1e-5)
             np.testing.assert_array_equal(actions, np.clip(raw, -1.0, 1.0))

@@ -101,8 +101,8 @@ def test_a_flipped_byte_is_refused(ppo, tmp_path):
         model.load(path)
 
 
-def test_a_model_for_other_observations_is_refused(ppo, stage, tmp_path):
-    model.check_spaces(ppo, tmp_path, Stage(VALIDATION, 4, threads=1).env)
+def test_a_model_for_other_observations_is_refused(ppo, tiny, tmp_path):
+    model.check_spaces(ppo, tmp_path, Stage(VALIDATION, 4, tiny.environment.judged(), threads=1).env)
     other = Stage(VALIDATION, 4, baselines.OPTIONS, threads=1)
     with pytest.raises(ModelError, match=r"was trained on observations in Box.*but the environment has Box"):
         model.check_spaces(ppo, tmp_path, other.env)

@@ -40,12 +40,6 @@ pub(super) struct Jets<R> {
 }
 
 impl<R: Real> Jets<R> {
-    /// None.
-    #[inline(always)]
-    pub(super) fn none() -> Self {
-        Self { thrust: V3::zero(), seconds: R::zero() }
-    }
-
     /// A short burst up, one that uses all the energy, and short ones to the left and to the right of the way
     /// that the player moves: with the largest sideways share, what is left of the thrust going up. A guess,
     /// for who chooses where to land: speed and contact, which change the shares (docs/physics.md, section
@@ -74,14 +68,13 @@ impl<R: Real> Jets<R> {
 
 /// Where a player is so many seconds later.
 #[inline(always)]
-fn place<S: Scene, R: Real>(p: &Player<S, R>, gravity: R, jets: &Jets<R>, time: R) -> V3<R> {
+fn place<S: Scene, R: Real>(p: &Player<S, R>, gravity: R, jets: Option<&Jets<R>>, time: R) -> V3<R> {
     let half = R::lit(0.5);
-    let burnt = jets.burnt(time);
     let fall = gravity * time * time * half;
-    p.position
-        + p.velocity * time
-        + jets.thrust * (burnt * (time - burnt * half))
-        + V3::new(R::zero(), R::zero(), fall)
+    let falls = p.position + p.velocity * time + V3::new(R::zero(), R::zero(), fall);
+    let Some(jets) = jets else { return falls };
+    let burnt = jets.burnt(time);
+    falls + jets.thrust * (burnt * (time - burnt * half))
 }
 
 /// Looks along the parabola of the present velocity, every 0.15 s, and interpolates where the
@@ -92,7 +85,7 @@ pub(super) fn landing<S: Scene, R: Real>(
     p: &Player<S, R>,
     below: &Ground<R>,
     gravity: R,
-    jets: &Jets<R>,
+    jets: Option<&Jets<R>>,
     surface: &Surface<'_, R::Scalar>,
     lowest: R,
 ) -> Landing<R> {
@@ -122,8 +115,9 @@ pub(super) fn landing<S: Scene, R: Real>(
     let time = R::select(falling, before, landed);
     let there = place(p, gravity, jets, time);
     let ground = seen_ground::<R>(surface, p.map, there.x, there.y, lowest);
-    let velocity = p.velocity + jets.thrust * jets.burnt(time) + V3::new(zero, zero, gravity * time);
-    let impact = (-velocity.dot(ground.normal())).max(zero);
+    let velocity = jets.map_or(p.velocity, |jets| p.velocity + jets.thrust * jets.burnt(time));
+    let into = velocity + V3::new(zero, zero, gravity * time);
+    let impact = (-into.dot(ground.normal())).max(zero);
     Landing {
         time: R::select(falling, R::lit(HORIZON), time),
         slope: [ground.slope_x, ground.slope_y],

@@ -259,9 +259,14 @@ impl Observation {
         if S::Damage::<R>::MODELED {
             row.push(p.damage.get(one), one / R::splat(rules.max_damage));
         }
-        let [up, all, left, right] = Jets::ways(p, rules, speed);
-        for jets in &[Jets::none(), up, all, left, right][self.landings()] {
-            let there = landing(p, &ground, R::lit(GRAVITY), jets, surface, lowest);
+        let mut ways = [None; LANDINGS.len()];
+        if self.jet_landings {
+            for (way, jets) in ways[1..].iter_mut().zip(Jets::ways(p, rules, speed)) {
+                *way = Some(jets);
+            }
+        }
+        for jets in &ways[self.landings()] {
+            let there = landing(p, &ground, R::lit(GRAVITY), jets.as_ref(), surface, lowest);
             let [gx, gy] = there.slope;
             let up = one / (gx * gx + gy * gy + one).sqrt();
             let [vx, vy] = there.velocity;

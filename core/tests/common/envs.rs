@@ -83,19 +83,21 @@ impl Envs {
         &self.observations[env * size..(env + 1) * size]
     }
 
+    /// Where a part of the observation begins.
+    pub fn at(&self, name: &str) -> usize {
+        let mut at = 0;
+        for field in self.batch.layout() {
+            if field.name == name {
+                return at;
+            }
+            at += field.count;
+        }
+        panic!("no {name} in the observation");
+    }
+
     /// The script: skis towards the beacon, and jets while its tank is all but full.
     pub fn actions(&self) -> Vec<i8> {
-        let at = |name: &str| {
-            let mut at = 0;
-            for field in self.batch.layout() {
-                if field.name == name {
-                    return at;
-                }
-                at += field.count;
-            }
-            panic!("no {name} in the observation");
-        };
-        let (beacon, energy) = (at("beacon_direction"), at("energy"));
+        let (beacon, energy) = (self.at("beacon_direction"), self.at("energy"));
         let action = |env: usize| -> [i8; ACTION_SIZE] {
             let row = self.row(env);
             let right = row[beacon + 1];
