@@ -28,14 +28,28 @@ def test_the_committed_card_is_the_codes(name):
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_the_table_of_the_observation_is_the_layout(name):
-    lines = card(TASKS[name]).split("## Observation")[1].split("## Reward")[0].splitlines()
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
-    told = [(field, int(count), unit, float(scale)) for field, count, unit, scale, _ in cells[2:]]
-    env: Any = gymnasium.make(TASKS[name].id, terrain_seeds=[0]).unwrapped
-    layout = [(f.name, f.slice.stop - f.slice.start, f.unit, f.scale) for f in env.observation_layout]
-    assert told == [(*rest, pytest.approx(scale, rel=1e-5)) for *rest, scale in layout]
-    assert sum(count for _, count, _, _ in told) == env.observation_space.shape[0]
+def test_the_tables_of_the_observation_are_the_layouts(name):
+    section = card(TASKS[name]).split("## Observation")[1].split("## Reward")[0]
+    plain, wide = section.split("With `jet_landings=True`")
+
+    def told(text):
+        lines = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
+        cells = [[cell.strip() for cell in line] for line in lines[2:]]
+        return [(field, int(count), unit, float(scale)) for field, count, unit, scale, _ in cells]
+
+    def layout(**options):
+        env: Any = gymnasium.make(TASKS[name].id, terrain_seeds=[0], **options).unwrapped
+        fields = env.observation_layout
+        assert sum(f.slice.stop - f.slice.start for f in fields) == env.observation_space.shape[0]
+        return [
+            (f.name, f.slice.stop - f.slice.start, f.unit, pytest.approx(f.scale, rel=1e-5)) for f in fields
+        ]
+
+    assert told(plain) == layout()
+    before, after = [[one[0] for one in some] for some in (told(plain), layout(jet_landings=True))]
+    at = before.index("fan")
+    assert after == before[:at] + [one[0] for one in told(wide)] + before[at:]
+    assert [one for one in layout(jet_landings=True) if one[0] not in before] == told(wide)
 
 
 def test_the_command_prints_one_and_writes_all(tmp_path):

@@ -26,7 +26,7 @@ FRAME_SKIP = SkiOptions.frame_skip
 PHYSICS: dict[str, Any] = {"fidelity": FIDELITY, "tick_ms": SkiOptions.tick_ms, "surface": SURFACES[0]}
 
 #: Options that a model keeps where it is judged: what it sees, and what its actions mean.
-OBSERVED = ("fan_bearings", "fan_ranges", "landing", "actions", "turn_rate")
+OBSERVED = ("fan_bearings", "fan_ranges", "landing", "jet_landings", "actions", "turn_rate")
 
 
 def model_path(name: str) -> Path:

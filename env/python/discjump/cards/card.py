@@ -1,6 +1,6 @@
 """The card of a task, as Markdown, from its options, its scene and its environments."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import gymnasium
@@ -54,6 +54,8 @@ def card(task: Task, scores: Mapping[str, Any] | None = None) -> str:
         "",
         *_observation(env),
         "",
+        *_jet_landings(task, env),
+        "",
         "## Reward",
         "",
         *_reward(options),
@@ -102,7 +104,9 @@ def _difficulties(options: TaskOptions) -> list[str]:
     for name in DIFFICULTIES:
         level = options.level(name)
         low, high = level.goal_distance
-        where = "the own stand" if level.from_stand else f"{low:.4g} to {high:.4g}"
+        where = (
+            f"up to {level.aside:g} m off the own stand" if level.from_stand else f"{low:.4g} to {high:.4g}"
+        )
         cells = [name, where, f"up to {level.start_speed:g}"]
         if marker:
             cells += [f"up to {level.aside:g}", f"up to {level.start_height:g}"]
@@ -128,12 +132,28 @@ def _observation(env: Any) -> list[str]:
         "unit.",
         "Horizontal vectors are (forward, right) of the player's yaw.",
         "",
+        *_fields(env.observation_layout),
+    ]
+
+
+def _jet_landings(task: Task, env: Any) -> list[str]:
+    wide: Any = gymnasium.make(task.id, terrain_seeds=[0], jet_landings=True).unwrapped
+    plain = {one.name for one in env.observation_layout}
+    return [
+        f"With `jet_landings=True` {wide.observation_space.shape[0]} numbers, these before the fan:",
+        "",
+        *_fields(one for one in wide.observation_layout if one.name not in plain),
+    ]
+
+
+def _fields(layout: Iterable[Any]) -> list[str]:
+    return [
         "| name | numbers | unit | scale | meaning |",
         "|---|---|---|---|---|",
         *(
             f"| {one.name} | {one.slice.stop - one.slice.start} | {one.unit} | {float(one.scale):.6g} | "
             f"{words.OBSERVATION[one.name]} |"
-            for one in env.observation_layout
+            for one in layout
         ),
     ]
 

@@ -22,7 +22,16 @@ from discjump_training.policy import Mask
 
 SCHEMA = 1
 #: Options that change what is seen or rewarded, or that the course says: none decides what can be reached.
-ELSEWHERE = ("terrain_seeds", "terrains", "fan_bearings", "fan_ranges", "landing", "reward", "curriculum")
+ELSEWHERE = (
+    "terrain_seeds",
+    "terrains",
+    "fan_bearings",
+    "fan_ranges",
+    "landing",
+    "jet_landings",
+    "reward",
+    "curriculum",
+)
 COLUMNS = tuple(one.name for one in fields(Tries))
 
 
