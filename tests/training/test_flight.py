@@ -54,6 +54,20 @@ def test_who_stands_under_a_low_marker_misses_nothing():
     env.close()
 
 
+def test_nobody_dies_because_the_way_is_long():
+    """Caught: a death counted as the time limit, a runner alive with a long way to go as up to twice that."""
+    env, layout, seen = of_task("route", count=2)
+    limit = env.options.time_limit
+    seconds = objectives.Seconds(layout, limit, lambda layout, some: np.full(len(some), 1.5 * limit))
+    seconds.begin(2)
+    ended = np.array([True, False])
+    info = {"time": np.array([3.0, 3.0]), "is_success": np.array([False, False])}
+    seconds.add(np.zeros(2), ended, np.ones(2, np.bool_), info)
+    died, lives = seconds.scores(seen, ~ended, 2)
+    assert died < lives
+    env.close()
+
+
 def test_a_success_is_better_than_any_flight_and_the_sooner_the_better():
     env, layout, seen = of_task("disc-jump", count=4)
     flight = objectives.make("disc-jump", layout, env.options)

@@ -60,7 +60,8 @@ class Rewards:
 
 
 class Seconds:
-    """Negative time until success, s; failures count as the time limit.
+    """Negative time until success, s. Failures count as twice the time limit, the most that a living state
+    counts: nobody dies because the way is long.
 
     Args:
         layout: of the observations.
@@ -72,7 +73,7 @@ class Seconds:
         self, layout: Layout, time_limit: float, to_go: Callable[[Layout, Observations], Floats]
     ) -> None:
         self._layout = layout
-        self._limit = time_limit
+        self._worst = 2.0 * time_limit
         self._to_go = to_go
 
     def begin(self, count: int) -> None:
@@ -84,13 +85,13 @@ class Seconds:
         """A decision was simulated."""
         self._time = np.where(running, info["time"], self._time)
         if ended.any():
-            reached = np.where(info["is_success"][ended], info["time"][ended], self._limit)
+            reached = np.where(info["is_success"][ended], info["time"][ended], self._worst)
             self._score[ended] = -reached
 
     def scores(self, observations: Observations, running: Mask, block: int) -> Floats:
         """Scores (count,)."""
         later = blockwise(lambda some: self._to_go(self._layout, some), observations, running, block)
-        return np.where(running, -np.minimum(self._time + later, 2.0 * self._limit), self._score)
+        return np.where(running, -np.minimum(self._time + later, self._worst), self._score)
 
 
 class Flight:
