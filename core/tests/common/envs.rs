@@ -9,6 +9,7 @@ use discjump_core::task::{
 };
 use discjump_core::terrain::mission::Area;
 use discjump_core::terrain::{Heightfield, Maps};
+use glam::DVec3;
 
 /// Two tiling maps of 512 m, beacons 25 to 60 m away, 8 s to reach them.
 pub fn ski(count: usize, fidelity: &str) -> EnvironmentsSetup {
@@ -81,6 +82,14 @@ impl Envs {
     pub fn row(&self, env: usize) -> &[f32] {
         let size = self.batch.observation_size();
         &self.observations[env * size..(env + 1) * size]
+    }
+
+    /// World place of a player's feet.
+    pub fn place(&self, env: usize) -> DVec3 {
+        let bytes = self.batch.state();
+        let row = bytes.len() / self.batch.len() * env;
+        let number = |k: usize| f64::from_le_bytes(bytes[row + 8 * k..row + 8 * k + 8].try_into().unwrap());
+        DVec3::new(number(0), number(1), number(2))
     }
 
     /// Where a part of the observation begins.

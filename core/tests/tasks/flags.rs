@@ -94,14 +94,10 @@ fn starts_are_spread_evenly_over_a_disc_about_the_own_stand() {
     (setup.count, setup.task.levels[0].aside) = (COUNT as usize, ASIDE);
     let seeds: Vec<u64> = (0..COUNT).collect();
     let envs = Envs::seeded(setup, &seeds);
-    let bytes = envs.batch.state();
-    let stride = bytes.len() / seeds.len();
-    let number = |row: usize, k: usize| {
-        f64::from_le_bytes(bytes[row * stride + 8 * k..row * stride + 8 * k + 8].try_into().unwrap())
-    };
     let (mut inner, mut east) = (0, 0);
     for (row, goal) in envs.batch.goals().into_iter().enumerate() {
-        let (x, y) = (number(row, 0) + goal[0], number(row, 1));
+        // The stands lie opposite to each other.
+        let (x, y) = (envs.place(row).x + goal[0], envs.place(row).y);
         let off = x.hypot(y);
         assert!(off <= ASIDE + 1e-4, "{off} m from the stand");
         inner += i32::from(off < ASIDE / 2.0f64.sqrt());
@@ -165,9 +161,6 @@ fn a_flag_is_not_taken_from_outside_the_area() {
     let aside = [1, 2, 0, 0, 3, 0, 4];
     until(&mut envs, aside, |envs| envs.batch.status()[0].outside);
     (0..8).for_each(|_| envs.step(&aside));
-    let passed = until(&mut envs, AHEAD, |envs| {
-        let bytes = envs.batch.state();
-        f64::from_le_bytes(bytes[..8].try_into().unwrap()) > HALF + 3.0
-    });
+    let passed = until(&mut envs, AHEAD, |envs| envs.place(0).x > HALF + 3.0);
     assert!(passed > 100 && outcome(&envs).is_none(), "passed it after {passed} ticks");
 }

@@ -6,7 +6,7 @@ use discjump_core::random::{Purpose, bits};
 use discjump_core::task::{ARMED_BINS, Grounds, Level, Reward};
 use glam::DVec3;
 
-const COUNT: usize = 48;
+const COUNT: usize = 96;
 
 /// Markers so near that keys at random reach some, and so high that others are missed.
 fn setup(fidelity: &str) -> EnvironmentsSetup {
@@ -24,14 +24,6 @@ fn setup(fidelity: &str) -> EnvironmentsSetup {
 fn keys(env: usize, tick: usize) -> [i8; 7] {
     let draw = |column: usize| bits((tick / 6) as u64, env as u64, Purpose::Start, column as u32);
     core::array::from_fn(|column| (draw(column) % ARMED_BINS[column] as u64) as i8)
-}
-
-fn place(envs: &Envs, env: usize, offset: usize) -> DVec3 {
-    let bytes = envs.batch.state();
-    let stride = bytes.len() / envs.batch.len();
-    let row = &bytes[env * stride..(env + 1) * stride];
-    let number = |k: usize| f64::from_le_bytes(row[offset + 8 * k..offset + 8 * k + 8].try_into().unwrap());
-    DVec3::new(number(0), number(1), number(2))
 }
 
 /// Upward speed: the third number after the place, of f32 or f64.
@@ -58,14 +50,14 @@ fn a_marker_is_reached_where_the_way_of_the_feet_passes_within_its_radius() {
     for fidelity in ["reference", "authentic", "engine"] {
         let mut envs = Envs::seeded(setup(fidelity), &(0..COUNT as u64).collect::<Vec<_>>());
         let goals: Vec<DVec3> = envs.batch.goals().into_iter().map(DVec3::from).collect();
-        let mut before: Vec<DVec3> = (0..COUNT).map(|env| place(&envs, env, 0)).collect();
+        let mut before: Vec<DVec3> = (0..COUNT).map(|env| envs.place(env)).collect();
         let mut over = [false; COUNT];
         let (mut reached, mut missed) = (0, 0);
         for tick in 0..250 {
             let actions: Vec<i8> = (0..COUNT).flat_map(|env| keys(env, tick)).collect();
             envs.step(&actions);
             for env in (0..COUNT).filter(|&env| !over[env]).collect::<Vec<_>>() {
-                let after = place(&envs, env, 0);
+                let after = envs.place(env);
                 let miss = nearest(before[env], after, goals[env]);
                 before[env] = after;
                 let ended = envs.ended(env).map(|(outcome, _)| outcome);
@@ -83,7 +75,7 @@ fn a_marker_is_reached_where_the_way_of_the_feet_passes_within_its_radius() {
             }
         }
         assert!(over.iter().all(|&over| over), "{fidelity}: all are over after 250 ticks");
-        assert!(reached >= 2 && missed >= 2, "{fidelity}: {reached} reached, {missed} missed");
+        assert!(reached >= 4 && missed >= 4, "{fidelity}: {reached} reached, {missed} missed");
     }
 }
 
@@ -93,7 +85,7 @@ fn rewards_add_up_to_what_was_left_and_what_is_left() {
         let mut envs = Envs::seeded(setup(fidelity), &(0..COUNT as u64).collect::<Vec<_>>());
         let goals: Vec<DVec3> = envs.batch.goals().into_iter().map(DVec3::from).collect();
         let left = |envs: &Envs, env: usize| {
-            let (at, up) = (place(envs, env, 0), climb(envs, env, double).max(0.0));
+            let (at, up) = (envs.place(env), climb(envs, env, double).max(0.0));
             let apex = at.z + up * up / 40.0;
             (at - goals[env]).length() + 0.5 * (goals[env].z - apex).max(0.0)
         };
