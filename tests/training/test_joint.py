@@ -18,17 +18,16 @@ def every(bins):
     return np.stack(np.unravel_index(np.arange(np.prod(bins)), bins), axis=1)
 
 
-def distribution(bins, seed=0):
-    """A distribution for one observation, and the probability of each action of `every`."""
+def drawn_logits(bins, seed=0):
+    """Logits (1, choices) of one observation, and the probability of each action of `every`."""
     rng = np.random.default_rng(seed)
     sizes = [36, *bins[4:]]
     logits = [rng.normal(scale=1.5, size=size) for size in sizes]
-    made = JointKeys(list(bins)).proba_distribution(torch.tensor(np.concatenate(logits))[None])
     parts = [special.softmax(one) for one in logits]
     chance = parts[0]
     for part in parts[1:]:
         chance = np.multiply.outer(chance, part)
-    return made, chance.ravel()
+    return torch.tensor(np.concatenate(logits))[None], chance.ravel()
 
 
 @EACH
@@ -42,25 +41,20 @@ def test_choices_count_the_keys_as_numpy_does(bins):
 
 @EACH
 def test_probabilities_are_those_of_a_softmax_over_all_keys(bins):
-    made, chance = distribution(bins)
+    logits, chance = drawn_logits(bins)
     actions = torch.tensor(every(bins))
-    rows = made.proba_distribution(
-        torch.cat([part.logits for part in made.distribution], dim=1).expand(len(actions), -1)
-    )
+    rows = JointKeys(list(bins)).proba_distribution(logits.expand(len(actions), -1))
     np.testing.assert_allclose(rows.log_prob(actions).exp().numpy(), chance, rtol=1e-9)
     np.testing.assert_allclose(rows.entropy()[0].item(), stats.entropy(chance), rtol=1e-9)
     best = every(bins)[chance.argmax()]
     assert (rows.mode()[0].numpy() == best).all()
-    assert (
-        likeliest(rows, torch.cat([part.logits for part in rows.distribution], dim=1))[0].numpy() == best
-    ).all()
+    assert (likeliest(rows, logits)[0].numpy() == best).all()
 
 
 def test_actions_are_drawn_as_often_as_they_are_likely():
-    made, chance = distribution(BINS)
+    logits, chance = drawn_logits(BINS)
     torch.manual_seed(0)
-    logits = torch.cat([part.logits for part in made.distribution], dim=1)
-    drawn = made.proba_distribution(logits.expand(200_000, -1)).sample().numpy()
+    drawn = JointKeys(list(BINS)).proba_distribution(logits.expand(200_000, -1)).sample().numpy()
     counts = np.bincount(np.ravel_multi_index(tuple(drawn.T), BINS), minlength=chance.size)
     assert stats.chisquare(counts, chance * counts.sum()).pvalue > 1e-3
 

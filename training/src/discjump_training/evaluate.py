@@ -9,7 +9,7 @@ from typing import Any
 
 from stable_baselines3 import PPO
 
-from discjump.envs.options import SkiOptions
+from discjump.envs.options import SIGHT, SkiOptions
 from discjump.envs.tasks import TASKS, Task
 from discjump.terrains import SURFACES
 from discjump_training import baselines, model
@@ -26,7 +26,7 @@ FRAME_SKIP = SkiOptions.frame_skip
 PHYSICS: dict[str, Any] = {"fidelity": FIDELITY, "tick_ms": SkiOptions.tick_ms, "surface": SURFACES[0]}
 
 #: Options that a model keeps where it is judged: what it sees, and what its actions mean.
-OBSERVED = ("fan_bearings", "fan_ranges", "landing", "jet_landings", "actions", "turn_rate")
+OBSERVED = (*SIGHT, "actions", "turn_rate")
 
 
 def model_path(name: str) -> Path:

@@ -16,7 +16,7 @@ import json
 import os
 import platform
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
 from pathlib import Path
@@ -68,6 +68,13 @@ PARTS = ("environment", "policy", "update")
 def seconds_of(run: dict[str, Any], parts: Iterable[str] = PARTS) -> float:
     """What a run spent on these, s, from its `run.json`."""
     return float(sum(run["seconds"][part] for part in parts))
+
+
+def shares(told: Sequence[dict[str, Any]]) -> dict[str, float]:
+    """Shares of the training time of runs that went into each of `PARTS`, from their `run.json`."""
+    spent = {part: sum(seconds_of(one, [part]) for one in told) for part in PARTS}
+    whole = sum(spent.values())
+    return {part: value / whole for part, value in spent.items()}
 
 
 @dataclass

@@ -24,7 +24,7 @@ from discjump_training.errors import TrainingError
 from discjump_training.files import write_atomically
 from discjump_training.intervals import Estimate
 from discjump_training.markdown import cell, table
-from discjump_training.runs import PARTS, seconds_of
+from discjump_training.runs import PARTS, shares
 
 #: Commands that the figures come from; `N` is each training seed.
 COMMAND = "discjump evaluate ppo=runs/{name}-N,... --task {name} --planner training/results/{name}/plan.json"
@@ -101,7 +101,6 @@ def training(folder: Path) -> list[list[str]]:
             continue
         try:
             minutes = [one["steps"] / one["steps_per_second"] / 60 for one in runs]
-            spent = {part: sum(seconds_of(one, [part]) for one in runs) for part in PARTS}
             found.append(
                 [
                     name,
@@ -109,7 +108,7 @@ def training(folder: Path) -> list[list[str]]:
                     f"{np.mean([one['steps'] for one in runs]) / 1e6:.1f} M",
                     f"{np.median(minutes):.1f} ({min(minutes):.1f} to {max(minutes):.1f})",
                     f"{np.median([one['steps_per_second'] for one in runs]):,.0f}",
-                    ", ".join(f"{value / sum(spent.values()):.0%}" for value in spent.values()),
+                    ", ".join(f"{share:.0%}" for share in shares(runs).values()),
                 ]
             )
         except (KeyError, TypeError, ZeroDivisionError) as error:

@@ -144,14 +144,12 @@ def judge(study: Study, variant: str, folder: Path, threads: int | None) -> Judg
     stage.close()
     if not told:
         return None
-    spent = {part: sum(runs.seconds_of(run, [part]) for run in told) for part in runs.PARTS}
-    whole = sum(spent.values())
     return Judged(
         np.stack(seconds),
         np.stack(success),
         [run["steps_per_second"] for run in told],
         [run["steps"] / run["steps_per_second"] for run in told],
-        {part: value / whole for part, value in spent.items()},
+        runs.shares(told),
         commands,
     )
 

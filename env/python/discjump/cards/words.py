@@ -25,27 +25,6 @@ OBSERVATION = {
     "landing_impact": "speed into the ground there; 0 if later",
     "landing_slope": "rise of the ground there along the flight",
     "landing_rise": "ground there over feet now",
-    "burst_time": "the same after a burst of the jets straight up, half a second long or until the energy "
-    "is used: time",
-    "burst_normal": "of the ground there: forward, right",
-    "burst_impact": "speed into the ground there; 0 if later",
-    "burst_slope": "rise of the ground there along the flight",
-    "burst_rise": "ground there over feet now",
-    "burn_time": "the same after burning all the energy straight up: time",
-    "burn_normal": "of the ground there: forward, right",
-    "burn_impact": "speed into the ground there; 0 if later",
-    "burn_slope": "rise of the ground there along the flight",
-    "burn_rise": "ground there over feet now",
-    "left_time": "the same after a burst as short to the left of the way that the player moves: time",
-    "left_normal": "of the ground there: forward, right",
-    "left_impact": "speed into the ground there; 0 if later",
-    "left_slope": "rise of the ground there along the flight",
-    "left_rise": "ground there over feet now",
-    "right_time": "the same after a burst as short to the right: time",
-    "right_normal": "of the ground there: forward, right",
-    "right_impact": "speed into the ground there; 0 if later",
-    "right_slope": "rise of the ground there along the flight",
-    "right_rise": "ground there over feet now",
     "fan": "rise of the ground from below the player to a point ahead, over the distance; bearing by "
     "bearing, near "
     "to far",
@@ -64,6 +43,16 @@ OBSERVATION = {
     "right",
     "axis_distance": "of the goal from the line along it through the player, positive to the right",
 }
+for _way, _time in {
+    "burst": "the same after a burst of the jets straight up, half a second long or until the energy "
+    "is used: time",
+    "burn": "the same after burning all the energy straight up: time",
+    "left": "the same after a burst as short to the left of the way that the player moves: time",
+    "right": "the same after a burst as short to the right: time",
+}.items():
+    OBSERVATION[f"{_way}_time"] = _time
+    for _part in ("normal", "impact", "slope", "rise"):
+        OBSERVATION[f"{_way}_{_part}"] = OBSERVATION[f"landing_{_part}"]
 """Of every field of an observation."""
 
 ACTION = (

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from discjump.envs.options import DiscJumpOptions
+from discjump.envs.options import SIGHT, DiscJumpOptions
 from discjump_training.bounds.markers import Found
 from discjump_training.bounds.tries import Tries
 from discjump_training.courses import Course
@@ -22,16 +22,7 @@ from discjump_training.policy import Mask
 
 SCHEMA = 1
 #: Options that change what is seen or rewarded, or that the course says: none decides what can be reached.
-ELSEWHERE = (
-    "terrain_seeds",
-    "terrains",
-    "fan_bearings",
-    "fan_ranges",
-    "landing",
-    "jet_landings",
-    "reward",
-    "curriculum",
-)
+ELSEWHERE = ("terrain_seeds", "terrains", *SIGHT, "reward", "curriculum")
 COLUMNS = tuple(one.name for one in fields(Tries))
 
 

@@ -48,12 +48,18 @@ HEADING = (
 )
 
 
+def estimate(value: float | dict[str, float]) -> Estimate:
+    """An estimate of `figures`."""
+    assert isinstance(value, dict)
+    return Estimate(**value)
+
+
 def row(name: str, told: Figures) -> list[str]:
     """A row of the table."""
     return [
         name,
-        cell(Estimate(**told["success"]), "%", 1),  # type: ignore[arg-type]
-        cell(Estimate(**told["seconds"]), "s", 2),  # type: ignore[arg-type]
+        cell(estimate(told["success"]), "%", 1),
+        cell(estimate(told["seconds"]), "s", 2),
         f"{told['simulated_per_decision']:,.0f}",
         f"{told['simulated_seconds'] / 3600:,.1f}",  # type: ignore[operator]
         f"{told['wall_seconds']:,.1f}",

@@ -11,6 +11,7 @@ from discjump.envs.options.base import (
     FAN_BEARINGS,
     FAN_RANGES,
     REWARD,
+    SIGHT,
     Level,
     TaskOptions,
 )
@@ -23,6 +24,7 @@ __all__ = [
     "FAN_BEARINGS",
     "FAN_RANGES",
     "REWARD",
+    "SIGHT",
     "DiscJumpOptions",
     "FlagRunOptions",
     "Level",

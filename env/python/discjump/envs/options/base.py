@@ -30,6 +30,10 @@ ACTIONS = ("multi_discrete", "box")
 DIFFICULTIES = ("easy", "standard", "hard")
 
 
+SIGHT = ("fan_bearings", "fan_ranges", "landing", "jet_landings")
+"""Options that change what an agent sees, and nothing else."""
+
+
 class Level(NamedTuple):
     """A distribution that episodes are drawn from."""
 

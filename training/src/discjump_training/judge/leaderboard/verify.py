@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from discjump import replays
+from discjump.envs.options import SIGHT
 from discjump.envs.tasks import TASKS
 from discjump.replays import EpisodeReplay
 from discjump.replays.episode import plain_options
@@ -14,7 +15,7 @@ from discjump_training.errors import TrainingError
 from discjump_training.judge.play import CLAIM
 
 #: Options that do not change the task: what is observed, what is rewarded, how often one decides.
-FREE = {"fan_bearings", "fan_ranges", "landing", "jet_landings", "reward", "actions", "frame_skip"}
+FREE = {*SIGHT, "reward", "actions", "frame_skip"}
 #: Names as `discjump evaluate --replays` gives them.
 NAMED = re.compile(r"(?P<course>.+-v\d+)-(?P<episode>\d{4,})-(?P<policy>.+)")
 
